@@ -39,7 +39,7 @@ WholePath random_path(std::mt19937& random, size_t length, double delta_share,
   path.pdf_next_event = density();
   path.first_merge_area = 1e-4f * density();
   path.first_survival = 0.05f + 0.95f * unit(random);
-  path.first_light_samples = float(1 + random() % 8);
+  path.first_light_samples = float(1 + length % 4);
   return path;
 }
 

@@ -106,6 +106,27 @@ TEST(PathPilot, TakesFewerPathsOfEachProbeOfALargePicture) {
   EXPECT_EQ(paths_of(1036), 7 * 130 * 130);
 }
 
+/// A lamp of which a screen hides half: a sample is about twice the light, or none, with a variance
+/// of about the squared light.
+TEST(PathPilot, KnowsTheNoiseOfLamps) {
+  const TestScene half_hidden(
+      camera("0, -4, 0.5", "0, 0, 0", 0.5, 64) +
+      flat("rectangle", scale("2, 2, 1"), diffuse("0.5, 0.5, 0.5")) +
+      flat("rectangle", scale("0.2, 0.2, 1") + rotate("1, 0, 0", 180) + translate("0, 0, 2"),
+           diffuse("0, 0, 0") + area_light("1")) +
+      flat("rectangle", scale("1, 1, 1") + translate("-1, 0, 1"), diffuse("0, 0, 0")));
+  const PixelPlans plans(half_hidden.scene());
+  const BallPilot pilot = pilot_of(half_hidden.scene(), LightPathEmission(half_hidden.scene()),
+                                   plans, LightVertices(), 1);
+  // Of the half that is seen, 0.08 m² at 2 m: by 0.5/π in three lanes.
+  const double light = mean_of(pilot, [](const auto& probe) { return probe.radiance; });
+  EXPECT_NEAR(light, 3 * 0.5 / std::numbers::pi * 0.08 / 4, 0.05 * light);
+  const double lamp = mean_of(pilot, [](const auto& probe) { return probe.lamp_variance; });
+  EXPECT_NEAR(lamp / (light * light), 1, 0.1);
+  const double direct = mean_of(pilot, [](const auto& probe) { return probe.direct_variance; });
+  EXPECT_NEAR(direct / (light * light), 1, 0.2);
+}
+
 /// A board of fine stripes under a point of light: samples of a pixel differ by where it is looked
 /// at, of which no further sample of the light tells anything.
 TEST(PathPilot, NoiseOfTexturesIsNotThatOfLamps) {

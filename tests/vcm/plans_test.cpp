@@ -64,13 +64,16 @@ TEST(VcmPlanner, PlansTheSameAgain) {
   }
 }
 
-void expect_paths_alone(const VcmPlans& plans) {
+void expect_no_light_paths(const VcmPlans& plans) {
   EXPECT_FALSE(plans.techniques.needs_light_paths());
   EXPECT_TRUE(plans.techniques.unidirectional && plans.techniques.next_event);
   EXPECT_EQ(plans.light_paths, 0);
-  for (const PixelPlan& plan : plans.pixels.plans()) EXPECT_EQ(plan.survival, 1);
-  ASSERT_EQ(plans.decisions.size(), 1u);
+  ASSERT_FALSE(plans.decisions.empty());
   EXPECT_NE(plans.decisions[0].find("camera alone"), std::string::npos);
+}
+void expect_paths_alone(const VcmPlans& plans) {
+  expect_no_light_paths(plans);
+  for (const PixelPlan& plan : plans.pixels.plans()) EXPECT_EQ(plan.survival, 1);
 }
 
 /// Where nothing can merge, all camera paths go on, alone.
@@ -98,7 +101,8 @@ TEST(VcmPlanner, KeepsLightPathsForWhatNothingElseFinds) {
   EXPECT_GT(hidden.light_paths, 0);
   const VcmPlans seen = planned(bare, auto_info());
   EXPECT_FALSE(seen.pilot->needs_merging);
-  expect_paths_alone(seen);
+  // Beyond the floor is nothing.
+  expect_no_light_paths(seen);
   // Nor is light of a point hidden that comes by matt events.
   const std::string matt = sphere("0.5, 0.1, 0.4", 0.4, diffuse("0.5, 0.5, 0.5"));
   EXPECT_FALSE(planned(bare + matt, auto_info()).pilot->needs_merging);

@@ -142,6 +142,13 @@ double floor_luminance(int x, int y) {
   return rho / std::numbers::pi * sum / (n * n);
 }
 
+/// `auto`, but that every vertex samples one light, so that much noise is left.
+std::unique_ptr<Integrator> with_one_light(const TestScene& scene,
+                                           const std::string& settings = "") {
+  return scene.integrator(
+      "ppm", set("choose_light_paths", true) + set("choose_light_samples", false) + settings);
+}
+
 /// Passes of four samples.
 Film rendered(const TestScene& scene, const Integrator& integrator, uint64_t seed, PassRange range,
               int threads = 0) {
@@ -166,7 +173,7 @@ struct Intervals {
 };
 std::vector<Intervals> intervals_of_floor(bool adaptive) {
   const TestScene scene(half_a_floor());
-  const auto integrator = scene.integrator("auto", set("adaptive", adaptive));
+  const auto integrator = with_one_light(scene, set("adaptive", adaptive));
   EXPECT_EQ(are_alike(counts_of(scene, *integrator, 3)), !adaptive);
   std::vector<Intervals> pictures;
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -252,7 +259,8 @@ std::string floor_and_wall() {
 /// (Disks so small that what merges has no bias to speak of.)
 TEST(AdaptiveSamples, WeightsSumToOneLong) {
   const TestScene scene(floor_and_wall());
-  const auto vcm = scene.integrator("vcm", set("radius", 0.01) + set("light_paths", 1.0));
+  const auto vcm = scene.integrator(
+      "vcm", set("radius", 0.01) + set("light_paths", 1.0) + set("choose_light_samples", false));
   const std::vector<uint32_t> counts = counts_of(scene, *vcm, 8);
   const auto many = [&](int x, int y) { return counts[size_t(y * 64 + x)] > 4 ? 1.0 : 0.0; };
   ASSERT_FALSE(are_alike(counts));
@@ -264,18 +272,18 @@ TEST(AdaptiveSamples, WeightsSumToOneLong) {
   expect_near_means("many samples", found.mean({""}, many), path.mean({""}, many), 0.005);
 }
 
-Film film_of(const TestScene& scene, PassRange range, int threads, const char* type = "auto") {
-  return rendered(scene, *scene.integrator(type), 3, range, threads);
+Film film_of(const TestScene& scene, PassRange range, int threads) {
+  return rendered(scene, *with_one_light(scene), 3, range, threads);
 }
 
 /// Passes are the same whoever renders them, whether or not he has rendered those before.
 TEST(AdaptiveSamples, SameBits) {
   const TestScene scene(floor_and_wall());
-  const std::vector<uint32_t> counts = counts_of(scene, *scene.integrator("auto"), 5);
+  const std::vector<uint32_t> counts = counts_of(scene, *with_one_light(scene), 5);
   EXPECT_FALSE(are_alike(counts));
   EXPECT_LE(mean(counts), 4);
-  EXPECT_TRUE(are_alike(counts_of(scene, *scene.integrator("auto"), 1)));
-  EXPECT_TRUE(are_alike(counts_of(scene, *scene.integrator("auto", set("adaptive", false)), 5)));
+  EXPECT_TRUE(are_alike(counts_of(scene, *with_one_light(scene), 1)));
+  EXPECT_TRUE(are_alike(counts_of(scene, *with_one_light(scene, set("adaptive", false)), 5)));
 
   const Image whole = film_of(scene, {0, 6}, 1).image();
   Film parts = film_of(scene, {5, 6}, 2);
@@ -293,9 +301,12 @@ TEST(AdaptiveSamples, SameBits) {
 TEST(AdaptiveSamples, SameBitsOfLaterPasses) {
   const TestScene scene(floor_and_wall());
   const uint32_t begin = replicate_count, end = begin + 2;
-  const Image whole = film_of(scene, {0, end}, 2, "vcm").image();
-  Film parts = film_of(scene, {begin, end}, 1, "vcm");
-  parts.add(film_of(scene, {0, begin}, 2, "vcm"));
+  const auto film = [&](PassRange range, int threads) {
+    return rendered(scene, *scene.integrator("vcm"), 3, range, threads);
+  };
+  const Image whole = film({0, end}, 2).image();
+  Film parts = film({begin, end}, 1);
+  parts.add(film({0, begin}, 2));
   const Image merged = parts.image();
   for (int c = 0; c < whole.channel_count(); ++c)
     EXPECT_EQ(std::memcmp(whole.channel(c).data(), merged.channel(c).data(),
@@ -307,7 +318,7 @@ TEST(AdaptiveSamples, SameBitsOfLaterPasses) {
 /// No sample comes twice in a replicate.
 TEST(AdaptiveSamples, IndicesAreNew) {
   const TestScene scene(floor_and_wall());
-  const auto integrator = scene.integrator("auto");
+  const auto integrator = with_one_light(scene);
   for (const uint32_t replicate : {0u, 5u}) {
     std::vector<uint32_t> next(size_t(side) * side, 0);
     bool differ = false;

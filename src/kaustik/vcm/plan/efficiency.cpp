@@ -45,6 +45,9 @@ struct Candidates {
   double direct = 0, lamp = 0;
   double rays = 0, rays_beyond = 0, lamp_rays = 0;
 
+  static constexpr size_t number(size_t chance, size_t samples) {
+    return chance * light_samples.size() + samples;
+  }
   Candidate at(size_t number) const {
     const size_t chance = number / light_samples.size();
     const int samples = light_samples[number % light_samples.size()];
@@ -87,7 +90,7 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
     result.squared_error[i] = variance(probe, kappa, scale) * relative;
   }
   result.direct = probe.direct_variance / costs.camera_samples * relative;
-  result.lamp = probe.lamp_variance / costs.camera_samples * relative;
+  result.lamp = std::min(result.direct, probe.lamp_variance / costs.camera_samples * relative);
   result.rays = probe.rays + rays_to_merge(probe, scale);
   result.rays_beyond = probe.rays_beyond;
   result.lamp_rays = probe.lamp_rays;
@@ -137,6 +140,41 @@ Efficiency expected(const std::vector<Candidates>& all, const std::vector<size_t
   return total;
 }
 
+/// A candidate of each probe, and what is expected of all.
+struct Choice {
+  std::vector<size_t> chosen;
+  Efficiency expected;
+};
+
+/// From `chosen` on, by turns: the least product of two sums is the least weighted sum, by weights
+/// that follow from the sums. There may be several such choices.
+Choice improved(const std::vector<Candidates>& all, std::vector<size_t> chosen,
+                const PassCosts& costs, const std::vector<MergeScale>& scales,
+                const PlanChoices& choices) {
+  const size_t chance_count = choices.survival ? chances.size() : 1;
+  const size_t sample_count = choices.light_samples ? light_samples.size() : 1;
+  for (int round = 0;; ++round) {
+    const Efficiency total = expected(all, chosen, costs, scales);
+    if (round == rounds) return {std::move(chosen), total};
+    parallel_blocks(all.size(), probes_at_a_time, [&](size_t begin, size_t end, size_t) {
+      for (size_t p = begin; p < end; ++p) {
+        double least = std::numeric_limits<double>::infinity();
+        chosen[p] = 0;
+        for (size_t i = 0; i < chance_count; ++i)
+          for (size_t k = 0; k < sample_count; ++k) {
+            const size_t number = Candidates::number(i, k);
+            const Candidate candidate = all[p].at(number);
+            const double time =
+                candidate.squared_error * total.rays + candidate.rays * total.squared_error;
+            if (!(time < least)) continue;
+            least = time;
+            chosen[p] = number;
+          }
+      }
+    });
+  }
+}
+
 }  // namespace
 
 void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
@@ -165,35 +203,22 @@ Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCo
                         std::vector<PixelPlan>& plans) {
   if (probes.empty()) return {};
   const std::vector<Candidates> all = candidates_of(probes, costs, scales, choices);
-  const size_t chance_count = choices.survival ? chances.size() : 1;
-  const size_t sample_count = choices.light_samples ? light_samples.size() : 1;
-  // The least product of two sums is the least weighted sum for weights that are found by turns.
-  std::vector<size_t> chosen(all.size(), chance_count / 2 * light_samples.size());
-  Efficiency total;
-  for (int round = 0;; ++round) {
-    total = expected(all, chosen, costs, scales);
-    if (round == rounds) break;
-    for (size_t p = 0; p < all.size(); ++p) {
-      double least = std::numeric_limits<double>::infinity();
-      for (size_t i = 0; i < chance_count; ++i)
-        for (size_t k = 0; k < sample_count; ++k) {
-          const size_t number = i * light_samples.size() + k;
-          const Candidate candidate = all[p].at(number);
-          const double time =
-              candidate.squared_error * total.rays + candidate.rays * total.squared_error;
-          if (!(time < least)) continue;
-          least = time;
-          chosen[p] = number;
-        }
-    }
-  }
+  const auto from = [&](size_t samples) {
+    const size_t chance = choices.survival ? chances.size() / 2 : 0;
+    return improved(all, std::vector<size_t>(all.size(), Candidates::number(chance, samples)),
+                    costs, scales, choices);
+  };
+  Choice best = from(0);
+  if (choices.light_samples)
+    if (Choice other = from(light_samples.size() - 1); other.expected.time() < best.expected.time())
+      best = std::move(other);
   for (size_t p = 0; p < all.size(); ++p) {
-    const Candidate best = all[p].at(chosen[p]);
-    plans[p].survival = float(best.survival);
-    plans[p].evenness = float(best.evenness);
-    plans[p].light_samples = best.light_samples;
+    const Candidate of_probe = all[p].at(best.chosen[p]);
+    plans[p].survival = float(of_probe.survival);
+    plans[p].evenness = float(of_probe.evenness);
+    plans[p].light_samples = of_probe.light_samples;
   }
-  return total;
+  return best.expected;
 }
 
 }  // namespace kaustik

@@ -240,7 +240,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   result.path_mean_square = even_squares / count;
   result.path_variance = variance_of(even, even_squares, count);
   result.direct_variance = variance_of(direct, direct_squares, count);
-  result.lamp_variance = std::min(result.direct_variance, lamp_differences / (2 * count));
+  result.lamp_variance = lamp_differences / (2 * count);
   result.lamp_rays = lamp_rays;
   result.radiance += (direct + beyond) / count;
   return result;
