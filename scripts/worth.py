@@ -42,7 +42,8 @@ PLACES = [AUTO, GUIDED, CACHE]
 # ppm with this setting is auto, whose devices have no parameters of their own.
 WHOLE = ("ppm", "choose_light_paths=true")
 DEVICES = ["aim=none"] + [f"{name}=false" for name in (
-    "choose_light_paths", "adaptive", "guiding", "guided_scattering", "choose_survival", "choose_light_samples", "learn_radii", "edges")]
+    "choose_light_paths", "adaptive", "guiding", "guided_scattering", "choose_survival", "choose_light_samples",
+    "learn_radii", "edges")]
 # What is there for the picture to be right, and may cost time.
 SAFEGUARDS = ["visibility=false"]
 # What auto leaves out.

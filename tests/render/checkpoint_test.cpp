@@ -221,7 +221,7 @@ TEST_F(CheckpointFile, PassesInPartsAreThoseOfOneRun) {
 TEST_F(CheckpointFile, LittleSceneMakesAutoLearn) {
   SplatBuffer splats(little_scene().scene().film(), ComponentSet());
   const auto state = little_integrator("auto")->prepare({5, 0, 2}, splats, {}, {});
-  ASSERT_EQ(state->report.decisions.size(), 1u);
+  ASSERT_FALSE(state->report.decisions.empty());
   EXPECT_NE(state->report.decisions[0].find("light paths per camera sample"), std::string::npos)
       << state->report.decisions[0];
   EXPECT_GT(state->report.photons, 0u);
@@ -331,10 +331,10 @@ TEST_F(CheckpointFile, ForeignFilesAreRefused) {
   other[12] = 99;
   write(other);
   expect_refused("has version 99");
-  // Its lessons tell otherwise what guides have learned.
+  // Its lessons are laid out otherwise.
   other[12] = 7;
   write(other);
-  expect_refused("has version 7, this program reads version 10");
+  expect_refused("has version 7, this program reads version 11");
 }
 
 TEST_F(CheckpointFile, TruncatedAndDamagedFilesAreRefused) {

@@ -1,5 +1,5 @@
-// How often camera paths go on: by variances and costs, on paper, and the pilot's variances against
-// those of pictures, of paths alone and of merging.
+// How often camera paths go on, and how many lights they sample: by variances and costs, on paper,
+// and the pilot's variances against those of pictures.
 
 #include "kaustik/vcm/plan/efficiency.h"
 
@@ -82,13 +82,13 @@ TEST(Efficiency, VarianceOfPathsAlone) {
 }
 
 /// A probe with nothing but direct light of variance 1, of which samples of lights share a part.
-ProbeStatistics direct_light(double lamp_variance, double lamp_rays = 1) {
+ProbeStatistics direct_light(double light_sample_variance, double light_sample_rays = 1) {
   ProbeStatistics probe;
   probe.direct_variance = 1;
-  probe.lamp_variance = lamp_variance;
+  probe.light_sample_variance = light_sample_variance;
   probe.radiance = 1;
   probe.rays = 2;
-  probe.lamp_rays = lamp_rays;
+  probe.light_sample_rays = light_sample_rays;
   return probe;
 }
 
@@ -106,7 +106,7 @@ TEST(Efficiency, AsManyLightsAreSampledAsPay) {
   ProbeStatistics costly = direct_light(0.8);
   costly.rays = 11;
   EXPECT_EQ(chosen(costly), 8);
-  costly.lamp_variance = 0.3;
+  costly.light_sample_variance = 0.3;
   EXPECT_EQ(chosen(costly), 2);
   const Efficiency expected = choose({costly}, 0).expected;
   EXPECT_NEAR(expected.squared_error, (0.7 + 0.3 / 2) / 4 / 1.01, 1e-6);
@@ -315,6 +315,38 @@ TEST(PathPilot, ExpectsTheVarianceOfMergingLong) {
       EXPECT_NEAR(expected.radiance / found.radiance, 1, 0.15);
     }
   }
+}
+
+/// A lamp that a screen hides in part, over a floor, and nothing else: where several lights are
+/// sampled, pictures gain what the pilot expects, or more, since the samples stratify one another.
+TEST(PathPilot, ExpectsWhatSamplesOfLightsTakeOff) {
+  const TestScene test(
+      camera("0, -1, 3", "0, 0, 0", 20, 24) +
+      flat("rectangle", scale("2, 2, 1"), diffuse("0.5, 0.5, 0.5")) +
+      flat("rectangle", scale("0.5, 0.5, 1") + rotate("1, 0, 0", 180) + translate("0, 0, 2"),
+           diffuse("0, 0, 0") + area_light("1")) +
+      flat("rectangle", scale("0.5, 2, 1") + translate("-0.5, 0, 1"), diffuse("0, 0, 0")));
+  Problems problems;
+  const VcmSettings settings(Arguments(ppm_info(), {}, {}, problems));
+  const auto plain = std::make_shared<const LightPathEmission>(test.scene(), settings.aim);
+  VcmPlans plans = *VcmPlanner(test.scene(), settings, plain).make(samples_of_pass, {}).plans;
+  const auto expected = [&](bool several) {
+    plans.choices.light_samples = several;
+    return plans.settle(plans.pixels.plans(), 1).squared_error;
+  };
+  const double of_several = expected(true);
+  double count = 0;
+  for (const PixelPlan& plan : plans.pixels.plans()) count += plan.light_samples;
+  EXPECT_GT(count, 2 * double(plans.pixels.plans().size()));
+  const double of_one = expected(false);
+  EXPECT_LT(of_several, 0.6 * of_one);
+  const auto error = [&](bool several) {
+    return measured(test, *test.integrator("ppm", set("choose_light_samples", several)))
+        .squared_error;
+  };
+  const double found_of_one = error(false);
+  EXPECT_LT(found_of_one, 1.2 * of_one);
+  EXPECT_LT(error(true) / found_of_one, 1.2 * of_several / of_one);
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ TEST(PathPilot, KnowsRaysAndNoiseOfABall) {
     EXPECT_NEAR(probe.rays, 2, 1e-9);
     EXPECT_NEAR(probe.rays_beyond, 3, 1e-9);
     EXPECT_NEAR(probe.direct_variance, 0, 1e-9);
-    EXPECT_NEAR(probe.lamp_variance, 0, 1e-9);
-    EXPECT_NEAR(probe.lamp_rays, 1, 1e-9);
+    EXPECT_NEAR(probe.light_sample_variance, 0, 1e-9);
+    EXPECT_NEAR(probe.light_sample_rays, 1, 1e-9);
     EXPECT_NEAR(probe.path_variance, 0, 1e-7);
     EXPECT_NEAR(probe.path_mean_square, sqr(even), 1e-3 * sqr(even));
     EXPECT_EQ(probe.merged_alone, 0);
@@ -121,7 +121,7 @@ TEST(PathPilot, KnowsTheNoiseOfLamps) {
   // Of the half that is seen, 0.08 m² at 2 m: by 0.5/π in three lanes.
   const double light = mean_of(pilot, [](const auto& probe) { return probe.radiance; });
   EXPECT_NEAR(light, 3 * 0.5 / std::numbers::pi * 0.08 / 4, 0.05 * light);
-  const double lamp = mean_of(pilot, [](const auto& probe) { return probe.lamp_variance; });
+  const double lamp = mean_of(pilot, [](const auto& probe) { return probe.light_sample_variance; });
   EXPECT_NEAR(lamp / (light * light), 1, 0.1);
   const double direct = mean_of(pilot, [](const auto& probe) { return probe.direct_variance; });
   EXPECT_NEAR(direct / (light * light), 1, 0.2);
@@ -142,7 +142,7 @@ TEST(PathPilot, NoiseOfTexturesIsNotThatOfLamps) {
       pilot_of(stripes.scene(), LightPathEmission(stripes.scene()), plans, LightVertices(), 1);
   EXPECT_GT(mean_of(pilot, [](const auto& probe) { return probe.direct_variance; }), 0);
   for (const ProbeStatistics& probe : pilot.probes)
-    ASSERT_LE(probe.lamp_variance, 1e-6 * probe.direct_variance);
+    ASSERT_LE(probe.light_sample_variance, 1e-6 * probe.direct_variance);
 }
 
 /// Blocks without paths of their own are told what is seen around them: half of the picture is a

@@ -36,6 +36,17 @@ class PlansFile : public testing::Test {
                         std::vector<uint32_t>(blocks, samples)};
     spread.counts.back() = count;
     plans.pixels.set_spread(std::make_shared<const SampleSpread>(std::move(spread)));
+    return written_and_read(plans);
+  }
+  /// Those that sample so many lights in one block.
+  VcmPlans with_light_samples(int count) const {
+    VcmPlans plans = made();
+    std::vector<PixelPlan> pixels = plans.pixels.plans();
+    pixels.back().light_samples = count;
+    plans.pixels = plans.pixels.with(std::move(pixels));
+    return written_and_read(plans);
+  }
+  VcmPlans written_and_read(const VcmPlans& plans) const {
     ByteWriter writer;
     write_plans(writer, plans);
     ByteReader reader(writer.bytes(), "plans");
@@ -65,6 +76,12 @@ TEST_F(PlansFile, CountsOfSamplesHaveBounds) {
   EXPECT_NO_THROW(with_count(4 * samples));
   EXPECT_THROW(with_count(0), Error);
   EXPECT_THROW(with_count(4 * samples + 1), Error);
+}
+TEST_F(PlansFile, CountsOfLightsHaveBounds) {
+  EXPECT_EQ(with_light_samples(1).pixels.plans().back().light_samples, 1);
+  EXPECT_EQ(with_light_samples(16).pixels.plans().back().light_samples, 16);
+  EXPECT_THROW(with_light_samples(0), Error);
+  EXPECT_THROW(with_light_samples(17), Error);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ void expect_no_light_paths(const VcmPlans& plans) {
   EXPECT_FALSE(plans.techniques.needs_light_paths());
   EXPECT_TRUE(plans.techniques.unidirectional && plans.techniques.next_event);
   EXPECT_EQ(plans.light_paths, 0);
-  ASSERT_FALSE(plans.decisions.empty());
+  ASSERT_EQ(plans.decisions.size(), 1u);
   EXPECT_NE(plans.decisions[0].find("camera alone"), std::string::npos);
 }
 void expect_paths_alone(const VcmPlans& plans) {
@@ -101,7 +101,7 @@ TEST(VcmPlanner, KeepsLightPathsForWhatNothingElseFinds) {
   EXPECT_GT(hidden.light_paths, 0);
   const VcmPlans seen = planned(bare, auto_info());
   EXPECT_FALSE(seen.pilot->needs_merging);
-  // Beyond the floor is nothing.
+  // Paths that go on find nothing there, so few do.
   expect_no_light_paths(seen);
   // Nor is light of a point hidden that comes by matt events.
   const std::string matt = sphere("0.5, 0.1, 0.4", 0.4, diffuse("0.5, 0.5, 0.5"));
@@ -147,6 +147,8 @@ VcmPlans two_probes() {
   probe.radiance = 1;
   probe.squares[ProbeStatistics::bin_of_one + 6] = 1;
   probe.path_mean_square = probe.path_variance = 1;
+  probe.direct_variance = probe.light_sample_variance = 1;
+  probe.light_sample_rays = 1;
   pilot.probes = {probe, probe};
   pilot.areas = {0.5f, 0};  // the second found no surface
   pilot.costs = {4, 2};
@@ -191,9 +193,15 @@ TEST(VcmPlans, SettleByWhatIsChosen) {
   EXPECT_LT(expected[0].survival, 1);
   EXPECT_EQ(plans.pixels.plans()[0].survival, expected[0].survival);
   EXPECT_EQ(plans.pixels.plans()[0].evenness, expected[0].evenness);
+  EXPECT_GT(expected[0].light_samples, 1);
+  EXPECT_EQ(plans.pixels.plans()[0].light_samples, expected[0].light_samples);
   EXPECT_EQ(plans.pixels.plans()[0].merge_area, 1.5f);
 
-  plans.choices = {.survival = false};
+  plans.choices = {.light_samples = false};
+  plans.settle(disks, 0.25f);
+  EXPECT_EQ(plans.pixels.plans()[0].light_samples, 1);
+  EXPECT_LT(plans.pixels.plans()[0].survival, 1);
+  plans.choices = {.survival = false, .light_samples = false};
   const double of_all = 2 + 6 + rays_beside_camera_paths(one.probes, one.costs, {{0.75, 4}});
   EXPECT_DOUBLE_EQ(plans.settle(disks, 0.25f).rays, of_all);
   EXPECT_EQ(plans.pixels.plans()[0].survival, 1);
@@ -234,8 +242,8 @@ TEST(Efficiency, StatisticsAreAddedByWeight) {
   other.path_mean_square = 3;
   other.path_variance = 4;
   other.direct_variance = 5;
-  other.lamp_variance = 10;
-  other.lamp_rays = 11;
+  other.light_sample_variance = 10;
+  other.light_sample_rays = 11;
   other.radiance = 6;
   other.merged = 7;
   other.rays = 8;
@@ -248,8 +256,8 @@ TEST(Efficiency, StatisticsAreAddedByWeight) {
   EXPECT_EQ(sum.path_mean_square, 7.5);
   EXPECT_EQ(sum.path_variance, 10);
   EXPECT_EQ(sum.direct_variance, 12.5);
-  EXPECT_EQ(sum.lamp_variance, 25);
-  EXPECT_EQ(sum.lamp_rays, 27.5);
+  EXPECT_EQ(sum.light_sample_variance, 25);
+  EXPECT_EQ(sum.light_sample_rays, 27.5);
   EXPECT_EQ(sum.radiance, 15);
   EXPECT_EQ(sum.merged, 17.5);
   EXPECT_EQ(sum.rays, 20);

@@ -33,7 +33,7 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       boolean_parameter("unidirectional", preset.unidirectional,
                         "Light that the camera's paths meet by chance counts."),
       boolean_parameter("next_event", preset.next_event,
-                        "Every vertex of the camera's paths samples a light."),
+                        "Vertices of the camera's paths sample lights."),
       boolean_parameter("splats", preset.splats,
                         "Vertices of light paths are connected to the camera."),
       boolean_parameter("connections", preset.connections,
@@ -69,10 +69,9 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       boolean_parameter("choose_survival", true,
                         "A pilot chooses, place by place, how often the camera's paths go on "
                         "beside what merges; else they always do."),
-      boolean_parameter(
-          "choose_light_samples", true,
-          "A pilot chooses, place by place, how many lights the first vertex of the "
-          "camera's paths samples, where light paths may merge; else it samples one."),
+      boolean_parameter("choose_light_samples", true,
+                        "With merging on, a pilot chooses, place by place, how many lights the "
+                        "first vertex of the camera's paths samples; else it samples one."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
       adaptive_parameter(),
       hide_emitters_parameter()};

@@ -70,7 +70,8 @@ constexpr auto levels = size_t(RadiusLearning::level_count);
 /// bucket by bucket of their tree.
 class RingSearch {
  public:
-  /// All but the last three must outlive this. `width`: radius of the smallest of `count` disks.
+  /// `light`, `at_probe` and the vertex of `widest` must outlive this. `width`: radius of the
+  /// smallest of `count` disks.
   RingSearch(const LightVertices& light, const ProbeLight& at_probe, const MergeDisk& widest,
              const DiskEdges& edges, float width, size_t count)
       : tree_(light.tree.tree()),

@@ -13,7 +13,7 @@ namespace {
 /// Chances of going on, and numbers of lights that are sampled. Of two choices that are as good the
 /// first is taken: where pilot paths have met nothing it costs nothing to go on.
 constexpr std::array<double, 8> chances{1, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, double(least_survival)};
-constexpr std::array<int, 5> light_samples{1, 2, 4, 8, 16};
+constexpr std::array<int, 5> light_counts{1, 2, 4, 8, PixelPlan::most_light_samples};
 /// Times as much as samples whose variance is their mean square, even samples count at most.
 constexpr double most_evenness = 30;
 /// Errors count relative to a pixel's light, and this share of the picture's mean light.
@@ -43,16 +43,16 @@ struct Candidates {
   // Relative squared errors of direct light, by one sample of a light, and what of it several
   // share.
   double direct = 0, lamp = 0;
-  double rays = 0, rays_beyond = 0, lamp_rays = 0;
+  double rays = 0, rays_beyond = 0, light_sample_rays = 0;
 
   static constexpr size_t number(size_t chance, size_t samples) {
-    return chance * light_samples.size() + samples;
+    return chance * light_counts.size() + samples;
   }
   Candidate at(size_t number) const {
-    const size_t chance = number / light_samples.size();
-    const int samples = light_samples[number % light_samples.size()];
-    return {.squared_error = squared_error[chance] + direct - lamp * (1 - 1.0 / samples),
-            .rays = rays + chances[chance] * rays_beyond + (samples - 1) * lamp_rays,
+    const size_t chance = number / light_counts.size();
+    const int samples = light_counts[number % light_counts.size()];
+    return {.squared_error = squared_error[chance] + direct - light_sample * (1 - 1.0 / samples),
+            .rays = rays + chances[chance] * rays_beyond + (samples - 1) * light_sample_rays,
             .evenness = evenness[chance],
             .survival = chances[chance],
             .light_samples = samples};
@@ -90,10 +90,11 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
     result.squared_error[i] = variance(probe, kappa, scale) * relative;
   }
   result.direct = probe.direct_variance / costs.camera_samples * relative;
-  result.lamp = std::min(result.direct, probe.lamp_variance / costs.camera_samples * relative);
+  result.light_sample =
+      std::min(result.direct, probe.light_sample_variance / costs.camera_samples * relative);
   result.rays = probe.rays + rays_to_merge(probe, scale);
   result.rays_beyond = probe.rays_beyond;
-  result.lamp_rays = probe.lamp_rays;
+  result.light_sample_rays = probe.light_sample_rays;
   return result;
 }
 
@@ -147,12 +148,12 @@ struct Choice {
 };
 
 /// From `chosen` on, by turns: the least product of two sums is the least weighted sum, by weights
-/// that follow from the sums. There may be several such choices.
+/// that follow from the sums. That may end where no small change is better.
 Choice improved(const std::vector<Candidates>& all, std::vector<size_t> chosen,
                 const PassCosts& costs, const std::vector<MergeScale>& scales,
                 const PlanChoices& choices) {
   const size_t chance_count = choices.survival ? chances.size() : 1;
-  const size_t sample_count = choices.light_samples ? light_samples.size() : 1;
+  const size_t sample_count = choices.light_samples ? light_counts.size() : 1;
   for (int round = 0;; ++round) {
     const Efficiency total = expected(all, chosen, costs, scales);
     if (round == rounds) return {std::move(chosen), total};
@@ -183,12 +184,12 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   path_mean_square += weight * other.path_mean_square;
   path_variance += weight * other.path_variance;
   direct_variance += weight * other.direct_variance;
-  lamp_variance += weight * other.lamp_variance;
+  light_sample_variance += weight * other.light_sample_variance;
   radiance += weight * other.radiance;
   merged += weight * other.merged;
   rays += weight * other.rays;
   rays_beyond += weight * other.rays_beyond;
-  lamp_rays += weight * other.lamp_rays;
+  light_sample_rays += weight * other.light_sample_rays;
 }
 
 double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
@@ -210,7 +211,7 @@ Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCo
   };
   Choice best = from(0);
   if (choices.light_samples)
-    if (Choice other = from(light_samples.size() - 1); other.expected.time() < best.expected.time())
+    if (Choice other = from(light_counts.size() - 1); other.expected.time() < best.expected.time())
       best = std::move(other);
   for (size_t p = 0; p < all.size(); ++p) {
     const Candidate of_probe = all[p].at(best.chosen[p]);

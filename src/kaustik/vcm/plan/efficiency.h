@@ -22,12 +22,13 @@ struct ProbeStatistics {
   double direct_variance = 0;                      ///< of direct light in a camera sample that
                                                    ///< samples one light at the vertex, with the
                                                    ///< lamp that the path meets next …
-  double lamp_variance = 0;  ///< … and what of it several samples would share
-  double radiance = 0;       ///< of everything
-  double merged = 0;         ///< light vertices of a pass within the disk
-  double rays = 0;           ///< per camera sample up to the lamp that the path may meet next …
-  double rays_beyond = 0;    ///< … and of a path that goes on there
-  double lamp_rays = 0;      ///< of a sample of direct light at the vertex; one is in `rays`
+  /// The part of direct_variance that falls as 1/n where n lights are sampled at the vertex.
+  double light_sample_variance = 0;
+  double radiance = 0;     ///< of everything
+  double merged = 0;       ///< light vertices of a pass within the disk
+  double rays = 0;         ///< per camera sample up to the lamp that the path may meet next …
+  double rays_beyond = 0;  ///< … and of a path that goes on there
+  double light_sample_rays = 0;  ///< of a sample of a light at the vertex; one is in `rays`
 
   void add(const ProbeStatistics& other, double weight);
 };
@@ -64,10 +65,11 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
 /// With κ = S s v and ν the light paths relative to the pilot's the variance of a pass is that of
 /// the balance heuristic, ∫ f² / (κ p + ν m): S camera samples, of which a share s goes on, and v
 /// the ratio of their mean square to their variance (variance-aware weights, Grittmann et al.
-/// 2019). To this comes the variance of direct light over S; its part that n samples of lights
-/// share is divided by n.
+/// 2019). To this comes the variance of direct light over S, a part of which n samples of lights
+/// divide by n.
 /// Writes survival, evenness and light_samples of `plans`, one for each probe, and returns what is
-/// expected. `scales` by probe; light_paths 0: nothing merges.
+/// expected. `scales` by probe; light_paths 0: nothing merges. What is not asked for is written
+/// as 1.
 Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
                         const std::vector<MergeScale>& scales, const PlanChoices& choices,
                         std::vector<PixelPlan>& plans);

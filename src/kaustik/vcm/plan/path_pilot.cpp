@@ -67,8 +67,8 @@ class Recorder final : public LightWeights {
     even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
     result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_;
   }
-  /// What was found since the last look, which does not count.
-  double take_back() {
+  /// Light found since the last look. It counts for nothing.
+  double dropped() {
     const double now = sink_.all_light();
     return now - std::exchange(seen_, now);
   }
@@ -183,7 +183,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   plan.light_samples = 1;
   const double count = paths;
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
-  double lamp_differences = 0, lamp_rays = 0;
+  double light_differences = 0, light_sample_rays = 0;
   for (uint32_t i = 0; i < paths; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::pilot_path, index, i);
     SampleSink sink(limits.components, {}, &scratch);
@@ -209,9 +209,9 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
         recorder.note();
         const uint64_t rays_of_path = walk.rays();
         path.add_direct_light(&recorder);
-        lamp_rays += double(walk.rays() - rays_of_path) / count;
+        light_sample_rays += double(walk.rays() - rays_of_path) / count;
         walk.rays() = rays_of_path;
-        lamp_differences += sqr(recorder.direct() - direct_before - recorder.take_back());
+        light_differences += sqr(recorder.direct() - direct_before - recorder.dropped());
       }
       // Of the first path alone: which vertex paths come to may be up to chance.
       if (was_before && i == 0 && any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy)))
@@ -240,8 +240,8 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   result.path_mean_square = even_squares / count;
   result.path_variance = variance_of(even, even_squares, count);
   result.direct_variance = variance_of(direct, direct_squares, count);
-  result.lamp_variance = lamp_differences / (2 * count);
-  result.lamp_rays = lamp_rays;
+  result.light_sample_variance = light_differences / (2 * count);
+  result.light_sample_rays = light_sample_rays;
   result.radiance += (direct + beyond) / count;
   return result;
 }
@@ -267,7 +267,7 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
   });
   double counted = 0;
   for (const ProbeStatistics& s : single)
-    counted += density.paths * (s.rays + s.rays_beyond + s.lamp_rays);
+    counted += density.paths * (s.rays + s.rays_beyond + s.light_sample_rays);
   rays += to_integer(std::round(counted), uint64_t(0), uint64_t(1) << 53);
   std::vector<ProbeStatistics> of_cells = smoothed(single, cells);
   if (density.paths < most_paths_per_probe) of_cells = smoothed(of_cells, cells);

@@ -27,6 +27,7 @@ struct PixelPlan {
   float evenness = 1;
   /// Lights that are sampled there: where what they bring is most of the noise, several.
   int light_samples = 1;
+  static constexpr int most_light_samples = 16;
 
   // What weights go by (PathHalves):
   /// All samples of a pixel merge with the same light vertices, which count but once.

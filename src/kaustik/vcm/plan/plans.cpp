@@ -126,11 +126,12 @@ VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token&
   return result;
 }
 
-/// Empty: no pixel has more than one.
+/// Empty: hardly any pixel has more than one.
 std::string described_light_samples(const PixelPlans& pixels) {
   const double mean =
       mean_of(pixels.plans(), [](const PixelPlan& plan) { return plan.light_samples; });
-  if (!(mean > 1)) return {};
+  constexpr double worth_telling = 1.05;
+  if (!(mean >= worth_telling)) return {};
   return fmt::format(
       "camera paths sample {:.2g} lights at their first vertex, on average, by a pilot's estimate",
       mean);

@@ -102,6 +102,9 @@ VcmPlans PlansReader::next() {
     seen_ = std::move(seen);
   }
   plans.pixels = PixelPlans::read(reader_, seen_);
+  for (const PixelPlan& plan : plans.pixels.plans())
+    if (plan.light_samples < 1 || plan.light_samples > PixelPlan::most_light_samples)
+      reader_.damaged("a block in it samples no light, or too many");
   if (const auto& spread = plans.pixels.spread())
     for (const uint32_t count : spread->counts)
       if (count == 0 || count > uint64_t(SampleSpread::most_factor) * plans.samples_per_pixel)
