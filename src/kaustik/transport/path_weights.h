@@ -52,8 +52,9 @@ struct PathHalves {
   float first_survival = 1;          ///< chance with which camera paths, once behind the first
                                      ///< vertex whose event is not delta, do more than meet a lamp
                                      ///< or the sky, and what merges in a medium on the way
-  float first_light_samples = 1;  ///< lights that camera paths sample at that vertex, if it is on
-                                  ///< a surface
+  /// Lights that camera paths sample at that vertex, if it is on a surface. Splats need not know:
+  /// their paths have an event after it.
+  float first_light_samples = 1;
 };
 
 /// Multiple importance sampling over all ways of finding a path: how much the path counts where it

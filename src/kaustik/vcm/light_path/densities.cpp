@@ -75,7 +75,6 @@ PathHalves splat_halves(const VcmLightInputs& in, const LightPathUnderWay& path,
   const PixelPlan plan = in.plans.at(seen.connection.raster, in.shrinkage);
   halves.first_merge_area = plan.counted_area(in.camera_samples);
   halves.first_survival = plan.counted_survival();
-  halves.first_light_samples = float(plan.light_samples);
   return halves;
 }
 

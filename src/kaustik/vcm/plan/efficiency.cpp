@@ -40,9 +40,8 @@ struct Candidate {
 struct Candidates {
   // By chance: relative squared error of all but direct light.
   std::array<double, chances.size()> squared_error{}, evenness{};
-  // Relative squared errors of direct light, by one sample of a light, and what of it several
-  // share.
-  double direct = 0, lamp = 0;
+  // Relative squared errors of direct light by one sample of a light: all, and what n divide by n.
+  double direct = 0, light_sample = 0;
   double rays = 0, rays_beyond = 0, light_sample_rays = 0;
 
   static constexpr size_t number(size_t chance, size_t samples) {
