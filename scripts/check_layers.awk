@@ -110,7 +110,7 @@ BEGIN {
   allow("photon", "base image geometry volume material medium light scene transport")
   allow("irradiance", "base image geometry volume material medium light scene transport")
   # Two methods over photons, which know nothing of each other.
-  allow("vcm", "base image geometry volume material medium light scene transport photon")
+  allow("vcm", "base image geometry volume material medium light scene transport photon irradiance")
   allow("photonmap", "base image geometry volume material medium light scene transport photon irradiance")
   allow("integrator", "base image geometry volume material medium light scene transport photon irradiance vcm photonmap")
   allow("render", \
@@ -136,9 +136,10 @@ BEGIN {
   allow_folder("photon/coverage", "")
   # Plans hold what lessons taught, and lessons change plans: the two know each other.
   allow_folder("vcm/merging", "")
+  allow_folder("vcm/gathering", "")
   allow_folder("vcm/light_path", "")
-  allow_folder("vcm/camera_path", "merging plan lessons")
-  allow_folder("vcm/plan", "camera_path merging lessons")
+  allow_folder("vcm/camera_path", "gathering merging plan lessons")
+  allow_folder("vcm/plan", "camera_path gathering merging lessons")
   allow_folder("vcm/lessons", "plan")
 
   not_in_word = "[^A-Za-z0-9_]"

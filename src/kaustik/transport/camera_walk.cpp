@@ -47,6 +47,7 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
     : scene_(scene),
       sampler_(sampler),
       sink_(sink),
+      wanted_(sink.wanted()),
       class_(traced),
       raster_(raster),
       u_lens_(scene.camera().lens_numbers(sampler)) {
@@ -71,6 +72,7 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
     : scene_(other.scene_),
       sampler_(sampler),
       sink_(other.sink_),
+      wanted_(other.wanted_),
       state_(other.state_),
       class_(other.class_),
       light_choice_(other.light_choice_),
@@ -147,12 +149,11 @@ CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& 
 
 bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
   const Component in_medium = class_.component_in_medium();
-  if (!sink_.wants(in_medium)) volume = nullptr;
+  if (!wants(in_medium)) volume = nullptr;
   return arrive(weights, [&](float length) {
            if (volume && state_.medium->scatters())
-             sink_.add(in_medium,
-                       state_.throughput * volume->radiance(ray_, length, *state_.medium,
-                                                            state_.wavelengths, sampler_, work()));
+             add(in_medium, volume->radiance(ray_, length, *state_.medium, state_.wavelengths,
+                                             sampler_, work()));
            state_.throughput *= state_.medium->transmittance({ray_.origin, ray_.direction, length},
                                                              state_.wavelengths, sampler_);
            return false;
@@ -161,12 +162,11 @@ bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
 
 CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume, LightWeights* weights) {
   const Component in_medium = class_.component_in_medium();
-  if (!sink_.wants(in_medium)) volume = nullptr;
+  if (!wants(in_medium)) volume = nullptr;
   return arrive(weights, [&](float length) {
     if (volume && state_.medium->scatters())
-      sink_.add(in_medium,
-                state_.throughput * volume->radiance(ray_, length, *state_.medium,
-                                                     state_.wavelengths, sampler_, work()));
+      add(in_medium,
+          volume->radiance(ray_, length, *state_.medium, state_.wavelengths, sampler_, work()));
     const Medium::Flight flight = state_.medium->sample_flight(
         {ray_.origin, ray_.direction, length}, state_.throughput, state_.wavelengths, sampler_);
     state_.throughput *= flight.weight;
@@ -194,7 +194,7 @@ void CameraWalk::add_emission(LightWeights* weights) {
   if (emitted.is_zero()) return;
   const float weight = weights ? weights->met(vertex_.light(), vertex_)
                                : emission_weight(vertex_.light(), vertex_.point());
-  sink_.add(class_.component(), state_.throughput * emitted * weight);
+  add(class_.component(), emitted * weight);
 }
 
 void CameraWalk::add_background(LightWeights* weights) {
@@ -205,8 +205,7 @@ void CameraWalk::add_background(LightWeights* weights) {
     if (state_.depth == 0 && scene_.is_hidden(index)) continue;
     const float weight =
         weights ? weights->met(index, ray_) : emission_weight(index, ray_.direction);
-    sink_.add(class_.component(),
-              state_.throughput * light.background(ray_.direction, state_.wavelengths) * weight);
+    add(class_.component(), light.background(ray_.direction, state_.wavelengths) * weight);
   }
 }
 
@@ -215,7 +214,7 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
   light_choice_ = sampling.choice;
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
-  const auto wanted = [&](Lobes lobe) { return sink_.wants(class_.component_after(lobe)); };
+  const auto wanted = [&](Lobes lobe) { return wants(class_.component_after(lobe)); };
   const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     ReflectedLight result;
     if (wanted(Lobes::diffuse))
@@ -247,7 +246,7 @@ void CameraWalk::add_medium_light(LightWeights* weights) {
   const Component component = class_.component_in_medium();
   const Scatterer here = scatterer();
   const auto scatter = [&](const DirectLight& light, ShadowAnswer& answer) {
-    if (!sink_.wants(component)) return Spectrum();
+    if (!wants(component)) return Spectrum();
     const float phase = state_.medium->phase().eval(-ray_.direction, light.wi);
     float weight = 1;
     if (weights)
@@ -259,9 +258,8 @@ void CameraWalk::add_medium_light(LightWeights* weights) {
     return light.radiance * visible * (phase * weight);
   };
   light_choice_ = LightChoice::one;
-  sink_.add(component,
-            state_.throughput * sample_direct_lights<Spectrum>(
-                                    scene_, in_medium_, {light_choice_, 1}, sampler_, scatter));
+  add(component,
+      sample_direct_lights<Spectrum>(scene_, in_medium_, {light_choice_, 1}, sampler_, scatter));
 }
 
 void CameraWalk::scatter_in_medium(const Vec2f& u) {

@@ -99,9 +99,9 @@ class CameraWalk {
   /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
   /// to it; seen by another event it counts as that event's.
   void add_photon_light(Component component, const Spectrum& radiance) {
-    sink_.add(seen(component), state_.throughput * radiance);
+    add(seen(component), radiance);
   }
-  bool wants_photon_light(Component component) const { return sink_.wants(seen(component)); }
+  bool wants_photon_light(Component component) const { return wants(seen(component)); }
 
   /// Density per solid angle with which the last event was sampled; 0: delta, or none yet.
   float last_pdf() const { return state_.pdf_forward; }
@@ -121,11 +121,14 @@ class CameraWalk {
   const CameraPathClass& path_class() const { return class_; }
   /// Adds radiance that the vertex sends back.
   void add(Component component, const Spectrum& radiance) {
-    sink_.add(component, state_.throughput * radiance);
+    if (wants(component)) sink_.add(component, state_.throughput * radiance);
   }
   /// An estimate of the bias of what add() was given.
   void add_bias(const Spectrum& radiance) { sink_.add_bias(state_.throughput * radiance); }
-  bool wants(Component component) const { return sink_.wants(component); }
+  bool wants(Component component) const { return wanted_.has(component); }
+  /// From now on the walk and its branches look for nothing of that component: somebody else has
+  /// found all of it.
+  void leave_out(Component component) { wanted_ = wanted_.without(component); }
   /// What layers show of the surface that is seen, by this walk and its branches.
   const FirstHit& first_hit() const { return sink_.first_hit(); }
   void set_first_hit(const FirstHit& seen) { sink_.set_first_hit(seen); }
@@ -133,7 +136,7 @@ class CameraWalk {
   Work work() { return {rays_, sink_.scratch()}; }
 
   /// Whether anything that is wanted may be found further on.
-  bool may_find_more() const { return class_.may_find(sink_.wanted()); }
+  bool may_find_more() const { return class_.may_find(wanted_); }
 
   /// Of light that a medium scatters into the path on its next segment.
   Component component_in_medium() const { return class_.component_in_medium(); }
@@ -173,7 +176,7 @@ class CameraWalk {
   }
   void go_on(const BsdfSample& event, float probability);
   void add_reflected(Lobes event, const Spectrum& radiance) {
-    sink_.add(class_.component_after(event), state_.throughput * radiance);
+    add(class_.component_after(event), radiance);
   }
   float emission_weight(int light, const LightTarget& target) const;
   /// Whether the walk is still on its way to the surface whose irradiance is asked for.
@@ -193,6 +196,7 @@ class CameraWalk {
   const Scene& scene_;
   Sampler& sampler_;
   SampleSink& sink_;
+  ComponentSet wanted_;  ///< what the sink wants, but for what was left out
   PathState state_;
   CameraPathClass class_;
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()

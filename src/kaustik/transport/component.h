@@ -31,6 +31,11 @@ class ComponentSet {
     return set;
   }
   constexpr void add(Component c) { bits_ |= 1u << unsigned(c); }
+  constexpr ComponentSet without(Component c) const {
+    ComponentSet rest = *this;
+    rest.bits_ &= ~(1u << unsigned(c));
+    return rest;
+  }
   constexpr bool has(Component c) const { return bits_ >> unsigned(c) & 1u; }
   constexpr bool empty() const { return bits_ == 0; }
   friend constexpr bool operator==(ComponentSet, ComponentSet) = default;

@@ -68,8 +68,25 @@ void VcmPass::trace_light(const LightPathAims& aims, SplatBuffer& splats, std::s
        .gauges = gauges_.empty() ? nullptr : &gauges_},
       pass_, Stream::light_path, splats, stop, progress, report);
   if (plans_->techniques.merging) matt_ = MattMerging(light_, weights_, stop);
+  if (plans_->cache_rounds > 0 && aims.cache && !stop.stop_requested()) fill_cache(stop, report);
   connection_scale_ = float(double(light_.connectible.size()) /
                             (double(settings_.connections) * double(light_.connectible_paths())));
+}
+
+void VcmPass::fill_cache(const std::stop_token& stop, PassReport& report) {
+  cache_ = std::make_unique<IndirectCache>(
+      GatherInputs{.scene = scene_,
+                   .light = light_,
+                   .merge_radius_sq = weights_.settings().merge_area * inv_pi,
+                   .maximum_events = settings_.maximum_events},
+      pass_);
+  for (int round = 0; round < plans_->cache_rounds && !stop.stop_requested(); ++round)
+    cache_->fill_round(stop);
+  report.rays += cache_->rays();
+  if (cache_->rays_dropped() > 0 && !stop.stop_requested())
+    report.warnings.emplace_back(
+        "the irradiance cache left out gather rays whose radiance is not finite: the light there "
+        "is too dark; look for lights or reflectances that are far too large");
 }
 
 void VcmPass::sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) const {
@@ -89,6 +106,7 @@ void VcmPass::sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) co
                      .roulette_depth = settings_.roulette_depth,
                      .connections = settings_.connections,
                      .scattering = plans_->guides.scattering.get(),
+                     .cache = cache_.get(),
                      .visibility = settings_.visibility},
                     plans_->pixels.at(raster, shrinkage_), raster, sampler, sink);
 }

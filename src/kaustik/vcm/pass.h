@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "kaustik/transport/integrator.h"
+#include "kaustik/vcm/gathering/indirect_cache.h"
 #include "kaustik/vcm/light_vertices.h"
 #include "kaustik/vcm/merging/matt_merging.h"
 #include "kaustik/vcm/merging/medium_disks.h"
@@ -14,6 +15,7 @@ namespace kaustik {
 struct LightPathAims {
   bool splats = true;             ///< they are splatted, if that is a technique
   bool connections = true;        ///< and may be connected
+  bool cache = true;              ///< the cache is filled, if the plans have one
   uint32_t remembered_paths = 0;  ///< paths whose beginnings are remembered
 };
 
@@ -40,6 +42,7 @@ class VcmPass {
 
  private:
   PathWeights make_weights() const;
+  void fill_cache(const std::stop_token& stop, PassReport& report);
 
   /// Of the first vertices of paths that begin at gauges, as the plans have it.
   GaugeDisks make_gauge_disks(uint64_t& rays) const;
@@ -54,6 +57,7 @@ class VcmPass {
   GaugeDisks gauges_;
   LightVertices light_;
   MattMerging matt_;
+  std::unique_ptr<IndirectCache> cache_;  ///< null: there is none
   float connection_scale_ = 0;
 };
 

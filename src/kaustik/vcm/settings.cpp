@@ -72,6 +72,11 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       boolean_parameter("choose_light_samples", true,
                         "With merging on, a pilot chooses, place by place, how many lights the "
                         "first vertex of the camera's paths samples; else it samples one."),
+      choice_parameter("indirect_cache", "choose", {"never", "choose", "always"},
+                       "Diffuse indirect light is gathered at some places of what the camera sees, "
+                       "and interpolated between them where it is smooth: where a pilot says that "
+                       "this pays, or in any case. With merging, without splats and connections, "
+                       "and where no medium scatters light."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
       adaptive_parameter(),
       hide_emitters_parameter()};
@@ -116,6 +121,15 @@ const TypeInfo& auto_info() {
   return info;
 }
 
+namespace {
+
+CacheUse read_cache_use(const std::string& text) {
+  if (text == "never") return CacheUse::never;
+  return text == "always" ? CacheUse::always : CacheUse::choose;
+}
+
+}  // namespace
+
 VcmSettings::VcmSettings(const Arguments& arguments)
     : components(read_components(arguments)),
       maximum_events(read_maximum_events(arguments)),
@@ -139,7 +153,8 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   edges = arguments.boolean("edges");
   visibility = arguments.boolean("visibility");
   choices = {.survival = arguments.boolean("choose_survival"),
-             .light_samples = arguments.boolean("choose_light_samples")};
+             .light_samples = arguments.boolean("choose_light_samples"),
+             .cache = read_cache_use(arguments.text("indirect_cache"))};
   samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
   techniques = {.unidirectional = arguments.boolean("unidirectional"),
                 .next_event = arguments.boolean("next_event"),
@@ -208,6 +223,21 @@ void adapt_to_few_pixels(const Arguments& arguments, const CameraTraits& camera,
     settings.light_paths = std::max(settings.light_paths, light_paths_of_pixels_apart / pixels);
 }
 
+/// The cache has all of its component, which other techniques must not find again.
+void adapt_cache(const Scene& scene, VcmSettings& settings) {
+  const Techniques& techniques = settings.techniques;
+  const bool can_be = techniques.merging && !techniques.splats && !techniques.connections &&
+                      settings.components.has(Component::indirect) && !scene.has_scattering() &&
+                      scene.gauges().empty() && !scene.camera().traits().are_pixels_apart() &&
+                      scene.film().quantity == Quantity::radiance;
+  if (can_be) return;
+  if (settings.choices.cache == CacheUse::always)
+    settings.warnings.emplace_back(
+        "indirect_cache has no effect here: it needs merging, no splats or connections, no medium "
+        "that scatters light, and a camera that sees radiance");
+  settings.choices.cache = CacheUse::never;
+}
+
 }  // namespace
 
 VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
@@ -215,6 +245,7 @@ VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
   if (scene.has_scattering()) adapt_to_media(arguments, settings);
   adapt_to_camera(arguments, scene.camera(), settings);
   adapt_to_few_pixels(arguments, scene.camera().traits(), scene.film(), settings);
+  adapt_cache(scene, settings);
   return settings;
 }
 

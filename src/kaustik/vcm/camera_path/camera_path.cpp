@@ -39,6 +39,14 @@ void CameraPath::add_direct_light(LightWeights* weights) {
     walk_.add_direct_light(1, 1, {.samples = vertices_.light_samples()}, {.weights = weights});
 }
 
+void CameraPath::ask_cache() {
+  if (!IndirectCache::is_for(walk_) || !walk_.wants(Component::indirect)) return;
+  Spectrum radiance;
+  if (!in_.cache->reflected(walk_, radiance)) return;
+  walk_.add(Component::indirect, radiance);
+  walk_.leave_out(Component::indirect);
+}
+
 bool CameraPath::may_end_at_lamp() const {
   return in_.scene.has_scattering() ||
          (in_.techniques().unidirectional && in_.scene.has_lights_to_meet());

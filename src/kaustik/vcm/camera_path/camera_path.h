@@ -26,6 +26,8 @@ class CameraPath {
   CameraWalk::Arrival go_on(bool scatters_in_media, LightWeights* weights = nullptr);
   /// Adds light that is sampled from the vertex.
   void add_direct_light(LightWeights* weights = nullptr);
+  /// Adds the diffuse indirect light that the cache has, which then nothing else adds.
+  void ask_cache();
   /// Adds light of paths that are connected to the vertex.
   void connect() { connect_to_light_paths(in_, vertices_, walk_); }
   /// Adds light of paths whose vertices are near; on surfaces.

@@ -1,5 +1,6 @@
 #pragma once
 #include "kaustik/transport/path_weights.h"
+#include "kaustik/vcm/gathering/indirect_cache.h"
 #include "kaustik/vcm/lessons/light_path_emission.h"
 #include "kaustik/vcm/light_vertices.h"
 #include "kaustik/vcm/merging/matt_merging.h"
@@ -24,6 +25,7 @@ struct CameraPathInputs {
   int roulette_depth = 5;
   int connections = 1;                       ///< per vertex
   const ScatterGuide* scattering = nullptr;  ///< of light paths; null: not guided
+  const IndirectCache* cache = nullptr;      ///< null: there is none
   bool visibility = true;                    ///< what is hidden does not merge
 
   const Techniques& techniques() const { return weights.settings().techniques; }

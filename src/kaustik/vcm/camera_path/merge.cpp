@@ -205,20 +205,21 @@ SurfaceMerging::MergedLight SurfaceMerging::merged_matt(
     const MergeDisk& disk, const DiskWeights& weights,
     std::vector<MattMerging::Factors>* each) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const MattLight light =
-      in_.matt.merge({.center = vertex.position(),
-                      .normal = disk.side(),
-                      .radius = disk.radius(),
-                      .flatness = disk.flatness(),
-                      .least_cosine = disk.least_cosine(),
-                      .most_before = in_.maximum_events - walk_.events(),
-                      .edges = weights.bounds.edges,
-                      .slope = weights.wide.slope,
-                      .narrow_slope = weights.narrow.slope,
-                      .weights = in_.weights.matt_vertex(
-                          vertices_.list(), vertices_.plan().counted_area(in_.camera_samples),
-                          vertices_.plan().counted_survival())},
-                     each);
+  const MattLight light = in_.matt.merge(
+      {.center = vertex.position(),
+       .normal = disk.side(),
+       .radius = disk.radius(),
+       .flatness = disk.flatness(),
+       .least_cosine = disk.least_cosine(),
+       .most_before = in_.maximum_events - walk_.events(),
+       .edges = weights.bounds.edges,
+       .slope = weights.wide.slope,
+       .narrow_slope = weights.narrow.slope,
+       .weights = in_.weights.matt_vertex(vertices_.list(),
+                                          vertices_.plan().counted_area(in_.camera_samples),
+                                          vertices_.plan().counted_survival()),
+       .only_after_specular = !walk_.wants(walk_.component_of(Lobes::diffuse, false))},
+      each);
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
@@ -341,34 +342,39 @@ std::vector<SurfaceMerging::MergedVertex> SurfaceMerging::merged_vertices() cons
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
   if (walk_.gauge() >= 0) {
-    visit_at_gauge(
-        radius, 1,
-        [&](const GaugeVertex& at, const Spectrum& flux, const BsdfValues& bsdf,
-            const PathHalves& path) {
-          if (!walk_.wants(walk_.component_of(Lobes::diffuse, at.data.specular))) return;
-          const float kernel = 2 * (1 - at.offset_sq / sqr(radius)) /
-                               (pi * sqr(radius) * float(in_.light.path_count));
-          result.push_back({in_.weights.beyond_merge(path),
-                            walk_.throughput() * bsdf.of(Lobes::diffuse) * flux * kernel});
-        });
+    visit_at_gauge(radius, 1,
+                   [&](const GaugeVertex& at, const Spectrum& flux, const BsdfValues& bsdf,
+                       const PathHalves& path) {
+                     if (!walk_.wants(walk_.component_of(Lobes::diffuse, at.data.specular))) return;
+                     const float kernel = 2 * (1 - at.offset_sq / sqr(radius)) /
+                                          (pi * sqr(radius) * float(in_.light.path_count));
+                     const Spectrum light =
+                         walk_.throughput() * bsdf.of(Lobes::diffuse) * flux * kernel;
+                     result.push_back({in_.weights.beyond_merge(path), light,
+                                       at.data.specular ? Spectrum() : light});
+                   });
     return result;
   }
   const MergeDisk disk(vertex, radius);
-  visit_merging(
-      disk, 1,
-      [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset, const Vec3f& wi,
-          const BsdfValues& bsdf, const PathHalves& path) {
-        const float distance_sq = length_sq(offset);
-        const float kernel =
-            2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
-        const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
-        Spectrum reflected;
-        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
-          if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
-            reflected += bsdf.of(lobe);
-        result.push_back(
-            {in_.weights.beyond_merge(path), walk_.throughput() * reflected * flux * factor});
-      });
+  visit_merging(disk, 1,
+                [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
+                    const Vec3f& wi, const BsdfValues& bsdf, const PathHalves& path) {
+                  const float distance_sq = length_sq(offset);
+                  const float kernel = 2 * (1 - distance_sq / sqr(radius)) /
+                                       (pi * sqr(radius) * float(in_.light.path_count));
+                  const float factor =
+                      vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+                  Spectrum reflected, indirect;
+                  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+                    const Component component = walk_.component_of(lobe, photon.specular);
+                    if (!any(vertex.lobes() & lobe) || !walk_.wants(component)) continue;
+                    reflected += bsdf.of(lobe);
+                    if (component == Component::indirect) indirect += bsdf.of(lobe);
+                  }
+                  const Spectrum arriving = walk_.throughput() * flux * factor;
+                  result.push_back(
+                      {in_.weights.beyond_merge(path), arriving * reflected, arriving * indirect});
+                });
   return result;
 }
 

@@ -25,6 +25,7 @@ class SurfaceMerging {
   struct MergedVertex {
     float beyond;  ///< PathWeights::beyond_merge()
     Spectrum light;
+    Spectrum indirect;  ///< the part of it that is diffuse indirect light
   };
   /// All that are wanted, for who must know more than the sum.
   std::vector<MergedVertex> merged_vertices() const;

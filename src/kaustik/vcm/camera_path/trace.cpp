@@ -61,6 +61,7 @@ void follow(CameraPath& path, Branch branch) {
     }
     const bool in_medium = arrival == CameraWalk::Arrival::medium;
     if (walk.events() >= in.maximum_events) return;
+    if (in.cache && !in_medium) path.ask_cache();
     if (techniques.next_event) path.add_direct_light();
     if (techniques.merging && !in_medium) path.merge();
     if (techniques.connections) path.connect();

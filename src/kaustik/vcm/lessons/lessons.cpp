@@ -95,9 +95,11 @@ void VcmLessons::trace_next(const Pass& next, const std::stop_token& stop,
   VcmPass missing(scene_, settings_, plans, next);
   // Nobody sees its splats; what camera samples connect to is of use for these alone.
   SplatBuffer nowhere = SplatBuffer::nowhere();
-  missing.trace_light(
-      {.splats = false, .connections = needs.pairs, .remembered_paths = needs.remembered_paths},
-      nowhere, stop, progress, report);
+  missing.trace_light({.splats = false,
+                       .connections = needs.pairs,
+                       .cache = needs.pairs,
+                       .remembered_paths = needs.remembered_paths},
+                      nowhere, stop, progress, report);
   take(missing, stop, report.rays);
 }
 

@@ -75,6 +75,7 @@ struct Sums {
 
 HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Block& block,
                           const MattDisk& disk, Sums& sums, MattMerging::Factors* factors) {
+  if (disk.only_after_specular && block.after_specular == 0) return;
   const Tag d;
   const auto dot_with = [&](const Vec3f& v, Vec x, Vec y, Vec z) HWY_ATTR {
     return hn::MulAdd(x, hn::Set(d, v.x),

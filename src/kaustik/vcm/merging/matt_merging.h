@@ -25,6 +25,7 @@ struct MattDisk {
   DiskEdges edges;           ///< nor what lies beyond these
   Vec3f slope{0, 0, 0}, narrow_slope{0, 0, 0};  ///< of the kernels, DiskKernel
   PathWeights::MattVertex weights;
+  bool only_after_specular = false;  ///< nor, if so, other light
 };
 
 /// What merges there, W, apart for light that came by specular events only and for the rest.

@@ -38,10 +38,11 @@ struct Candidate {
 
 /// What may be chosen at a probe: by number, each chance with each number of lights.
 struct Candidates {
-  // By chance: relative squared error of all but direct light.
+  // By chance: relative squared error of all other light.
   std::array<double, chances.size()> squared_error{}, evenness{};
-  // Relative squared errors of direct light by one sample of a light: all, and what n divide by n.
-  double direct = 0, light_sample = 0;
+  // Relative squared errors of direct light by one sample of a light and of what a cache has: all,
+  // and what n samples divide by n.
+  double constant = 0, light_sample = 0;
   double rays = 0, rays_beyond = 0, light_sample_rays = 0;
 
   static constexpr size_t number(size_t chance, size_t samples) {
@@ -50,7 +51,7 @@ struct Candidates {
   Candidate at(size_t number) const {
     const size_t chance = number / light_counts.size();
     const int samples = light_counts[number % light_counts.size()];
-    return {.squared_error = squared_error[chance] + direct - light_sample * (1 - 1.0 / samples),
+    return {.squared_error = squared_error[chance] + constant - light_sample * (1 - 1.0 / samples),
             .rays = rays + chances[chance] * rays_beyond + (samples - 1) * light_sample_rays,
             .evenness = evenness[chance],
             .survival = chances[chance],
@@ -88,9 +89,10 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
     const double kappa = costs.camera_samples * chances[i] * result.evenness[i];
     result.squared_error[i] = variance(probe, kappa, scale) * relative;
   }
-  result.direct = probe.direct_variance / costs.camera_samples * relative;
-  result.light_sample =
-      std::min(result.direct, probe.light_sample_variance / costs.camera_samples * relative);
+  const double direct = probe.direct_variance / costs.camera_samples;
+  const double light_sample = probe.light_sample_variance / costs.camera_samples;
+  result.constant = (direct + probe.cache_variance) * relative;
+  result.light_sample = std::min(direct, light_sample) * relative;
   result.rays = probe.rays + rays_to_merge(probe, scale);
   result.rays_beyond = probe.rays_beyond;
   result.light_sample_rays = probe.light_sample_rays;
@@ -136,7 +138,7 @@ Efficiency expected(const std::vector<Candidates>& all, const std::vector<size_t
   }
   total.squared_error /= double(all.size());
   total.rays /= double(all.size());
-  total.rays += rays_of_light_paths(costs, scales);
+  total.rays += rays_of_light_paths(costs, scales) + cost_model.gather_ray * costs.cache_rays;
   return total;
 }
 
@@ -189,6 +191,24 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   rays += weight * other.rays;
   rays_beyond += weight * other.rays_beyond;
   light_sample_rays += weight * other.light_sample_rays;
+  for (size_t i = 0; i < squares.size(); ++i)
+    ungathered.squares[i] += weight * other.ungathered.squares[i];
+  ungathered.merged_alone += weight * other.ungathered.merged_alone;
+  ungathered.path_mean_square += weight * other.ungathered.path_mean_square;
+  ungathered.path_variance += weight * other.ungathered.path_variance;
+  gather_variance += weight * other.gather_variance;
+  cache_variance += weight * other.cache_variance;
+}
+
+ProbeStatistics ProbeStatistics::with_cache(int gather_rays) const {
+  ProbeStatistics rest = *this;
+  rest.squares = ungathered.squares;
+  rest.merged_alone = ungathered.merged_alone;
+  rest.path_mean_square = ungathered.path_mean_square;
+  rest.path_variance = ungathered.path_variance;
+  constexpr double worth = 2;
+  rest.cache_variance = gather_variance / (worth * gather_rays);
+  return rest;
 }
 
 double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,

@@ -30,6 +30,18 @@ struct ProbeStatistics {
   double rays_beyond = 0;  ///< … and of a path that goes on there
   double light_sample_rays = 0;  ///< of a sample of a light at the vertex; one is in `rays`
 
+  /// `squares` … `path_variance` without diffuse indirect light, where a cache may have it …
+  struct Ungathered {
+    std::array<double, bin_count> squares{};
+    double merged_alone = 0, path_mean_square = 0, path_variance = 0;
+  } ungathered;
+  /// … and the variance of that light by one gather ray.
+  double gather_variance = 0;
+  double cache_variance = 0;  ///< what a cache leaves of it; 0: there is none
+  /// What is left where records of a cache have found that light by so many gather rays each. These
+  /// are worth twice as many: they stratify one another, and several records are interpolated.
+  ProbeStatistics with_cache(int gather_rays) const;
+
   void add(const ProbeStatistics& other, double weight);
 };
 
@@ -43,6 +55,7 @@ struct MergeScale {
 struct PassCosts {
   double camera_samples = 1;  ///< per pixel and pass
   double light_rays = 0;      ///< of a pass per camera sample, with MergeScale::light_paths 1
+  double cache_rays = 0;      ///< to fill the cache, of a pass per camera sample
 };
 
 /// What a pass is expected to cost, in rays per camera sample, and to leave as mean squared error

@@ -56,6 +56,8 @@ class Recorder final : public LightWeights {
   void note() {
     const double now = sink_.all_light(), light = now - seen_;
     seen_ = now;
+    const double indirect_before = seen_indirect_;
+    seen_indirect_ = indirect();
     if (light == 0) return;
     if (!goes_on_) {
       direct_ += light;
@@ -63,10 +65,20 @@ class Recorder final : public LightWeights {
     }
     // Split between the ways as the balance heuristic does.
     const double share = camera_samples_ / (camera_samples_ + ratio_);
+    const double even_share =
+        most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
+    const auto bin = size_t(bin_of(ratio_));
     beyond_ += light * share;
-    even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
-    result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_;
+    even_ += light * even_share;
+    result_.squares[bin] += light * light * share / paths_;
+    const double gathered = is_for_cache_ ? seen_indirect_ - indirect_before : 0.0;
+    const double rest = light - gathered;
+    gathered_ += gathered * even_share;
+    ungathered_even_ += rest * even_share;
+    result_.ungathered.squares[bin] += rest * rest * share / paths_;
   }
+  /// A cache may have the diffuse indirect light of the probed vertex.
+  void leave_to_cache() { is_for_cache_ = true; }
   /// Light found since the last look. It counts for nothing.
   double dropped() {
     const double now = sink_.all_light();
@@ -80,8 +92,14 @@ class Recorder final : public LightWeights {
   double direct() const { return direct_; }
   double beyond() const { return beyond_; }
   double even() const { return even_; }
+  double ungathered_even() const { return ungathered_even_; }
+  /// What the cache is for.
+  double gathered() const { return gathered_; }
 
  private:
+  double indirect() const {
+    return double(lane_sum(sink_.radiance(Component::indirect), sink_.wavelengths()));
+  }
   template <typename Weight>
   float weigh(const Weight& weight) {
     note();
@@ -99,15 +117,18 @@ class Recorder final : public LightWeights {
   double camera_samples_;
   double paths_;  ///< of the probe
   ProbeStatistics& result_;
-  bool goes_on_ = false;
-  double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0, even_ = 0;
+  bool goes_on_ = false, is_for_cache_ = false;
+  double seen_ = 0, seen_indirect_ = 0, ratio_ = 0;
+  double direct_ = 0, beyond_ = 0, even_ = 0, ungathered_even_ = 0, gathered_ = 0;
 };
 
 /// Light that merges there, as what a camera path that goes on would have to find.
 void add_merged(CameraPath& path, float samples, double light_share, ProbeStatistics& result) {
   const double camera_samples = double(samples);
-  for (const auto& [beyond, spectrum] : path.merged_vertices()) {
+  const bool is_for_cache = IndirectCache::is_for(path.walk());
+  for (const auto& [beyond, spectrum, indirect] : path.merged_vertices()) {
     const double light = double(spectrum.sum());
+    const double rest = is_for_cache ? light - double(indirect.sum()) : light;
     result.merged += 1 / light_share;
     if (light == 0) continue;
     // Of each of the vertices that a real pass has in place of this one.
@@ -118,11 +139,13 @@ void add_merged(CameraPath& path, float samples, double light_share, ProbeStatis
             : 0.0;
     if (!(ratio > 0)) {
       result.merged_alone += squares;
+      result.ungathered.merged_alone += rest * rest * light_share;
       result.radiance += light;
       continue;
     }
     const double share = ratio / (camera_samples + ratio);
     result.squares[size_t(bin_of(ratio))] += squares * ratio * share;
+    result.ungathered.squares[size_t(bin_of(ratio))] += rest * rest * light_share * ratio * share;
     result.radiance += light * share;
   }
 }
@@ -184,6 +207,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   const double count = paths;
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
   double light_differences = 0, light_sample_rays = 0;
+  double ungathered = 0, ungathered_squares = 0, gathered = 0, gathered_squares = 0;
   for (uint32_t i = 0; i < paths; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::pilot_path, index, i);
     SampleSink sink(limits.components, {}, &scratch);
@@ -205,6 +229,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
       path.add_direct_light(&recorder);
       const bool was_before = path.vertices().is_at_first();
       if (was_before) {
+        if (IndirectCache::is_for(walk)) recorder.leave_to_cache();
         // Another sample from the same place.
         recorder.note();
         const uint64_t rays_of_path = walk.rays();
@@ -235,10 +260,17 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
     beyond += recorder.beyond();
     even += recorder.even();
     even_squares += recorder.even() * recorder.even();
+    ungathered += recorder.ungathered_even();
+    ungathered_squares += sqr(recorder.ungathered_even());
+    gathered += recorder.gathered();
+    gathered_squares += sqr(recorder.gathered());
   }
   result.rays_beyond = rays_beyond;
   result.path_mean_square = even_squares / count;
   result.path_variance = variance_of(even, even_squares, count);
+  result.ungathered.path_mean_square = ungathered_squares / count;
+  result.ungathered.path_variance = variance_of(ungathered, ungathered_squares, count);
+  result.gather_variance = variance_of(gathered, gathered_squares, count);
   result.direct_variance = variance_of(direct, direct_squares, count);
   result.light_sample_variance = light_differences / (2 * count);
   result.light_sample_rays = light_sample_rays;

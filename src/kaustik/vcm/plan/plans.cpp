@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "kaustik/base/parallel.h"
 #include "kaustik/photon/photon_map.h"
 #include "kaustik/vcm/lessons/radius_learning.h"
 #include "kaustik/vcm/light_pass.h"
@@ -39,6 +41,10 @@ constexpr double most_times_own = 16, paths_of_any_crop = 1 << 16;
 constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
 /// Fewer have wider disks, whose bias is not counted: they must be so much better.
 constexpr double worth_fewer = 1.25;
+/// The bias of a cache is not counted either.
+constexpr double worth_caching = 1.1;
+/// Gather rays of a record in a trial.
+constexpr int trial_samples = 64;
 constexpr float near_per_distance = 0.01746f;  // tan 1°
 
 /// Whether there is a vertex that light of a point, or of something else that is never met, has
@@ -98,27 +104,56 @@ std::string described(const VcmPlans& plans, double gain) {
       plans.light_paths, 100 * going_on, why);
 }
 
+/// In which the cache may be filled: numbers of rounds that were tried.
+std::vector<int> rounds_to_choose_from(const VcmPlans& plans) {
+  if (plans.choices.cache == CacheUse::always) return {IndirectCache::most_rounds};
+  std::vector<int> result;
+  for (int rounds = 0; rounds <= IndirectCache::most_rounds; ++rounds)
+    if (plans.pilot->has_tried(rounds)) result.push_back(rounds);
+  return result;
+}
+
+/// Settles the plans with a cache if that pays.
+void settle_with_cache(VcmPlans& plans) {
+  const std::vector<PixelPlan> disks = plans.pixels.plans();
+  std::optional<VcmPlans> best;
+  double least = 0;
+  for (const int rounds : rounds_to_choose_from(plans)) {
+    VcmPlans other = plans;
+    other.cache_rounds = rounds;
+    const double time = other.settle(disks, 1).time() * (rounds > 0 ? worth_caching : 1);
+    if (best && !(time < least)) continue;
+    least = time;
+    best = std::move(other);
+  }
+  plans = std::move(*best);
+}
+
 /// The same with as many light paths as pay, if any do, and says so. Worth nothing if it was
 /// stopped.
 VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token& stop) {
   const std::vector<PixelPlan> disks = plans.pixels.plans();
-  const auto with = [&](float light_paths) {
+  const auto with = [&](float light_paths, int cache_rounds) {
     VcmPlans result = plans;
     result.light_paths = light_paths;
+    result.cache_rounds = cache_rounds;
     if (light_paths == 0) result.techniques = result.techniques.of_camera_paths();
     const Efficiency expected = result.settle(disks, 1);
     return std::pair(std::move(result), expected);
   };
-  const auto of_paths_alone = with(0);
+  const auto of_paths_alone = with(0, 0);
   const bool needs_merging = plans.pilot->needs_merging;
   auto best = of_paths_alone;
   if (needs_merging) best.second.squared_error = std::numeric_limits<double>::infinity();
-  for (const float factor : light_path_factors) {
-    if (stop.stop_requested()) return plans;
-    auto other = with(plans.pilot->light_paths * factor);
-    const double handicap = factor < 1 && best.first.techniques.merging ? worth_fewer : 1;
-    if (other.second.time() * handicap < best.second.time()) best = std::move(other);
-  }
+  for (const float factor : light_path_factors)
+    for (const int rounds : rounds_to_choose_from(plans)) {
+      if (stop.stop_requested()) return plans;
+      auto other = with(plans.pilot->light_paths * factor, rounds);
+      double handicap = factor < 1 && best.first.techniques.merging ? worth_fewer : 1;
+      if (rounds > 0 && best.first.cache_rounds == 0) handicap *= worth_caching;
+      if (rounds == 0 && best.first.cache_rounds > 0) handicap /= worth_caching;
+      if (other.second.time() * handicap < best.second.time()) best = std::move(other);
+    }
   const double gain = needs_merging ? std::numeric_limits<double>::infinity()
                                     : of_paths_alone.second.time() / best.second.time();
   VcmPlans result = std::move(best.first);
@@ -172,7 +207,8 @@ std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& dis
 
 Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   const std::vector<MergeScale> scales = merge_scales(disks, shrinkage);
-  const Efficiency result = choose_plans(pilot->probes, pilot->costs, scales, choices, disks);
+  const Efficiency result = choose_plans(pilot->probes_with(cache_rounds),
+                                         pilot->costs_with(cache_rounds), scales, choices, disks);
   pixels = pixels.with(std::move(disks));
   return result;
 }
@@ -243,6 +279,10 @@ FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& s
     plans = with_merging(std::move(plans), found.light, of_pass, stop, rays);
   if (std::string text = described_light_samples(plans.pixels); !text.empty())
     plans.decisions.push_back(std::move(text));
+  if (plans.cache_rounds > 0)
+    plans.decisions.emplace_back(
+        "diffuse indirect light is gathered at some places, and interpolated between them where it "
+        "is smooth");
   if (plans.guides.scattering && plans.techniques.needs_light_paths())
     plans.decisions.push_back(described(plans.guides));
   plans.decisions.insert(plans.decisions.end(), settings_.decisions.begin(),
@@ -368,7 +408,7 @@ VcmPlans VcmPlanner::with_merging(VcmPlans plans, const PilotLight& light, uint3
   if (settings_.chooses_light_paths)
     plans = with_light_paths_that_pay(plans, stop);
   else
-    plans.settle(plans.pixels.plans(), 1);
+    settle_with_cache(plans);
   if (plans.techniques.merging && settings_.edges)
     plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius, rays, stop);
   return plans;
@@ -415,7 +455,53 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
       double(light_path_count(size, plans.samples_per_pixel, plans.light_paths));
   pilot.costs = {samples, double(light.rays) / light_share /
                               (samples * double(size.x) * double(size.y) * shared_by)};
+  if (settings_.choices.cache != CacheUse::never && !stop.stop_requested())
+    try_cache({.scene = scene_,
+               .light = light.vertices,
+               .merge_radius_sq = settings.merge_area * inv_pi,
+               .maximum_events = settings_.maximum_events},
+              plans.pixels, pilot, stop, rays);
   return pilot;
+}
+
+void VcmPlanner::try_cache(const GatherInputs& inputs, const PixelPlans& pixels, VcmPilot& pilot,
+                           const std::stop_token& stop, uint64_t& rays) const {
+  constexpr int usual = IndirectCache::usual_samples;
+  if (settings_.choices.cache == CacheUse::always) {
+    VcmPilot::WithCache& all = pilot.with_cache.back();
+    for (const ProbeStatistics& probe : pilot.probes) all.probes.push_back(probe.with_cache(usual));
+    return;
+  }
+  const Vec2i size = scene_.film().crop_size;
+  const double samples = pilot.costs.camera_samples * double(size.x) * double(size.y);
+  const std::vector<PixelProbe>& probes = pixels.seen().probes();
+  const std::vector<MergeScale> scales(pilot.probes.size());
+  const auto time = [&](int rounds) {
+    std::vector<PixelPlan> disks = pixels.plans();
+    return choose_plans(pilot.probes_with(rounds), pilot.costs_with(rounds), scales,
+                        settings_.choices, disks)
+        .time();
+  };
+  IndirectCache cache(inputs, Pass(), trial_samples);
+  for (int rounds = 1; rounds <= IndirectCache::most_rounds; ++rounds) {
+    cache.fill_round(stop);
+    if (stop.stop_requested()) return;
+    VcmPilot::WithCache& found = pilot.with_cache[size_t(rounds) - 1];
+    found.rays = double(cache.rays()) * usual / trial_samples / samples;
+    found.probes = pilot.probes;
+    parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {
+      for (size_t i = begin; i < end; ++i) {
+        Sampler numbers = Sampler::at(0, 0, Stream::pilot_path, i, 0);
+        SampleSink nowhere{ComponentSet()};
+        CameraWalk walk(scene_, probes[i].raster, numbers, nowhere);
+        if (walk.advance() && IndirectCache::is_for(walk) && cache.serves(walk))
+          found.probes[i] = pilot.probes[i].with_cache(usual);
+      }
+    });
+    // Finer rounds cost more, and serve less.
+    if (!(time(rounds) < time(rounds - 1))) break;
+  }
+  rays += cache.rays();
 }
 
 }  // namespace kaustik

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kaustik/transport/integrator.h"
+#include "kaustik/vcm/gathering/indirect_cache.h"
 #include "kaustik/vcm/lessons/light_path_emission.h"
 #include "kaustik/vcm/lessons/light_path_use.h"
 #include "kaustik/vcm/light_vertices.h"
@@ -19,6 +20,25 @@ struct VcmPilot {
   std::vector<ProbeStatistics> probes;
   std::vector<float> areas;  ///< of the disks that they were taken with, m²
   PassCosts costs;
+  /// The same where the cache has what a trial of one round, of two … served; without probes:
+  /// not tried.
+  struct WithCache {
+    std::vector<ProbeStatistics> probes;
+    double rays = 0;  ///< PassCosts::cache_rays
+  };
+  std::array<WithCache, IndirectCache::most_rounds> with_cache;
+  /// Of passes that fill the cache in so many rounds.
+  bool has_tried(int cache_rounds) const {
+    return cache_rounds == 0 || !with_cache[size_t(cache_rounds) - 1].probes.empty();
+  }
+  const std::vector<ProbeStatistics>& probes_with(int cache_rounds) const {
+    return cache_rounds == 0 ? probes : with_cache[size_t(cache_rounds) - 1].probes;
+  }
+  PassCosts costs_with(int cache_rounds) const {
+    PassCosts result = costs;
+    if (cache_rounds > 0) result.cache_rays = with_cache[size_t(cache_rounds) - 1].rays;
+    return result;
+  }
   float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
   /// Light arrives somewhere in the scene that no path from the camera can find, or media scatter
   /// it, of which the pilot knows nothing.
@@ -49,7 +69,8 @@ struct VcmPlans {
   std::vector<std::string> decisions;     ///< what was chosen by itself, for the user
   /// Vertices that may be connected, per light path: what the weights go by.
   float connectible_per_path = 1;
-  PlanChoices choices;  ///< what the pilot is asked for
+  PlanChoices choices;   ///< what the pilot is asked for
+  int cache_rounds = 0;  ///< in which each pass fills its cache; 0: there is none
 
   /// Gives the probes these disks and what the pilot is asked for, for passes whose disks have
   /// `shrinkage` times the area.
@@ -116,6 +137,10 @@ class VcmPlanner {
   /// By the disks of `plans`. Counts the rays.
   VcmPilot make_pilot(const VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
                       const std::stop_token& stop, uint64_t& rays) const;
+
+  /// Tries the cache: what it serves, and what it costs. Counts the rays.
+  void try_cache(const GatherInputs& inputs, const PixelPlans& pixels, VcmPilot& pilot,
+                 const std::stop_token& stop, uint64_t& rays) const;
 
   const Scene& scene_;
   const VcmSettings& settings_;

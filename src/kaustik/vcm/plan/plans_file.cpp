@@ -51,6 +51,12 @@ void write_pilot(ByteWriter& writer, const VcmPilot* pilot) {
   writer.put(pilot->costs);
   writer.put(pilot->light_paths);
   writer.put(uint8_t(pilot->needs_merging ? 1 : 0));
+  for (const VcmPilot::WithCache& with_cache : pilot->with_cache) {
+    writer.put(uint8_t(with_cache.probes.empty() ? 0 : 1));
+    if (with_cache.probes.empty()) continue;
+    writer.put_array(with_cache.probes);
+    writer.put(with_cache.rays);
+  }
 }
 
 std::shared_ptr<const VcmPilot> read_pilot(ByteReader& reader, size_t probes) {
@@ -61,6 +67,11 @@ std::shared_ptr<const VcmPilot> read_pilot(ByteReader& reader, size_t probes) {
   pilot.costs = reader.get<PassCosts>();
   pilot.light_paths = reader.get<float>();
   pilot.needs_merging = reader.get_flag();
+  for (VcmPilot::WithCache& with_cache : pilot.with_cache) {
+    if (!reader.get_flag()) continue;
+    with_cache.probes = reader.get_array<ProbeStatistics>(probes);
+    with_cache.rays = reader.get<double>();
+  }
   return std::make_shared<const VcmPilot>(std::move(pilot));
 }
 
@@ -79,6 +90,7 @@ void write_plans(ByteWriter& writer, const VcmPlans& plans) {
   writer.put(uint64_t(plans.decisions.size()));
   for (const std::string& decision : plans.decisions) writer.put_text(decision);
   writer.put(plans.connectible_per_path);
+  writer.put(int32_t(plans.cache_rounds));
 }
 
 VcmPlans PlansReader::next() {
@@ -114,6 +126,10 @@ VcmPlans PlansReader::next() {
   const auto decisions = reader_.get<uint64_t>();
   for (uint64_t i = 0; i < decisions; ++i) plans.decisions.push_back(reader_.get_text());
   plans.connectible_per_path = reader_.get<float>();
+  plans.cache_rounds = reader_.get<int32_t>();
+  if (plans.cache_rounds < 0 || plans.cache_rounds > IndirectCache::most_rounds ||
+      (plans.pilot && !plans.pilot->has_tried(plans.cache_rounds)))
+    reader_.damaged("its cache is filled in a number of rounds that was not tried");
   plans.choices = settings_.choices;
   return plans;
 }

@@ -1,0 +1,110 @@
+#include "kaustik/vcm/gathering/gathered_light.h"
+
+#include "kaustik/transport/direct_light.h"
+#include "kaustik/transport/roulette.h"
+#include "kaustik/transport/travel.h"
+
+namespace kaustik {
+namespace {
+
+/// Events of a gather ray before roulette.
+constexpr int roulette_depth = 2;
+/// Light vertices that tell from where light comes to a record.
+constexpr int importance_vertices = 50;
+
+}  // namespace
+
+Spectrum GatheredLight::direct_light(const SurfaceVertex& vertex, const PathState& state,
+                                     Sampler& sampler, uint64_t& rays) const {
+  const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
+    const Spectrum reflected = vertex.eval_cosine(light.wi, Lobes::diffuse) * light.radiance;
+    if (reflected.is_zero()) return reflected;
+    return reflected * arriving_share(in_.scene, light, nullptr,
+                                      vertex.medium_toward(light.wi, state.medium),
+                                      {vertex.wavelengths(), sampler}, rays, answer);
+  };
+  return sample_direct_lights<Spectrum>(in_.scene, Receiver(vertex, 1), {LightChoice::one, 1},
+                                        sampler, reflect);
+}
+
+Spectrum GatheredLight::focused_light(const SurfaceVertex& vertex, int events) const {
+  const SidedTree<LightVertexData>& tree = in_.light.tree;
+  if (tree.empty() || !(in_.merge_radius_sq > 0)) return {};
+  const Vec3f& ng = vertex.point().ng;
+  Spectrum sum;
+  tree.within(vertex.position(), vertex.on_front() ? ng : -ng, vertex.transmits(),
+              in_.merge_radius_sq, [&](uint32_t index, float) {
+                const LightVertexData& data = tree.tree().data(index);
+                if (!data.specular || events + int(data.before) > in_.maximum_events) return;
+                const Vec3f wi = data.direction.unpack();
+                const float factor = vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f;
+                sum += vertex.eval(wi, Lobes::diffuse) * data.flux.spectrum() * factor;
+              });
+  return sum * (1 / (pi * in_.merge_radius_sq * float(in_.light.path_count)));
+}
+
+RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
+                                                         const SurfacePoint& from,
+                                                         const Vec3f& direction, Sampler& sampler,
+                                                         Scratch&) const {
+  Incoming result;
+  PathState state;
+  state.wavelengths = in_.light.wavelengths;
+  state.medium = medium;
+  state.footprint.scatter(Lobes::diffuse, 0.5f * inv_pi);
+  Ray ray = spawn_ray(from, direction);
+  SurfaceVertex vertex;
+  float distance = 0;
+  uint64_t rays = 0;
+  const auto go_on = [&](const Hit& hit, bool found) {
+    if (state.medium)
+      state.throughput *= state.medium->transmittance({ray.origin, ray.direction, hit.t},
+                                                      state.wavelengths, sampler);
+    distance += hit.t;
+    return found;
+  };
+  while (travel(in_.scene, state, ray, vertex, rays, go_on)) {
+    if (state.depth == 0) result.distance = distance;
+    sampler.start_vertex(uint32_t(state.depth));
+    // That of the surface that gathers, and the one here.
+    if (state.depth + 2 > in_.maximum_events) break;
+    if (any(vertex.lobes() & Lobes::diffuse)) {
+      Spectrum sent = direct_light(vertex, state, sampler, rays);
+      sent += focused_light(vertex, state.depth + 1);
+      result.radiance += state.throughput * sent;
+    }
+    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+    const BsdfSample sample = vertex.sample(u_choice.x, u, Lobes::all);
+    if (sample.event == Lobes::none || sample.weight.is_zero()) break;
+    state.throughput *= sample.weight;
+    state.roulette_scale *= sqr(sample.eta);
+    if (state.depth >= roulette_depth) {
+      const float share = state.throughput.max_lane() * state.roulette_scale;
+      if (!survive_roulette(state, share, u_choice.y)) break;
+    }
+    leave(vertex, sample, sample.pdf_solid_angle, state, ray);
+  }
+  rays_.fetch_add(rays, std::memory_order_relaxed);
+  return result;
+}
+
+bool GatheredLight::importance(const SurfacePoint& at, const Frame& frame,
+                               const HemisphereGrid& grid, Scratch& scratch,
+                               std::vector<float>& cell_importance) const {
+  const SidedTree<LightVertexData>& tree = in_.light.tree;
+  if (tree.empty()) return false;
+  cell_importance.assign(size_t(grid.count()), 0);
+  const Vec3f side = dot(frame.z, at.ng) < 0 ? -at.ng : at.ng;
+  const auto borrowed = scratch.borrow<SidedTree<LightVertexData>::Neighbors>();
+  SidedTree<LightVertexData>::Neighbors& neighbors = *borrowed;
+  tree.nearest(at.position, side, false, importance_vertices, infinity, neighbors);
+  for (size_t i = 0; i < neighbors.size(); ++i) {
+    const LightVertexData& data = tree.tree().data(neighbors.index(i));
+    const Vec3f local = frame.to_local(data.direction.unpack());
+    if (data.specular || !(local.z > 0)) continue;
+    cell_importance[size_t(grid.cell_of(local))] += data.flux.spectrum().max_lane();
+  }
+  return true;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,49 @@
+#pragma once
+#include <atomic>
+
+#include "kaustik/irradiance/hemisphere.h"
+#include "kaustik/vcm/light_vertices.h"
+
+namespace kaustik {
+
+/// What gather rays need to know of a pass.
+struct GatherInputs {
+  const Scene& scene;
+  const LightVertices& light;
+  float merge_radius_sq = 0;  ///< of focused light at the ends of gather rays, m²
+  int maximum_events = 1 << 20;
+};
+
+/// Light that has been scattered diffusely before it arrives at a surface, along a ray: that which
+/// the diffuse lobe of what the ray meets sends back. The ray goes on from there as a path of path
+/// tracing does: at each vertex direct light is sampled for the diffuse lobe, and focused light,
+/// which only light paths find, merges in a disk. Lamps that paths meet do not count: these two
+/// have found all of their light. Knows no light that media scatter.
+class GatheredLight final : public RadianceSource {
+ public:
+  /// All of `inputs` must outlive this.
+  explicit GatheredLight(const GatherInputs& inputs) : in_(inputs) {}
+
+  Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
+                    Sampler& sampler) const override {
+    Scratch scratch;
+    return incoming_through(nullptr, from, direction, sampler, scratch);
+  }
+  Incoming incoming_through(const Medium* medium, const SurfacePoint& from, const Vec3f& direction,
+                            Sampler& sampler, Scratch& scratch) const override;
+  /// By the flux of the light vertices around.
+  bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
+                  Scratch& scratch, std::vector<float>& cell_importance) const override;
+  /// Traced so far.
+  uint64_t rays() const { return rays_.load(std::memory_order_relaxed); }
+
+ private:
+  Spectrum direct_light(const SurfaceVertex& vertex, const PathState& state, Sampler& sampler,
+                        uint64_t& rays) const;
+  Spectrum focused_light(const SurfaceVertex& vertex, int events) const;
+
+  GatherInputs in_;
+  mutable std::atomic<uint64_t> rays_{0};  ///< a count alone; changes no result
+};
+
+}  // namespace kaustik

@@ -1,0 +1,82 @@
+#include "kaustik/vcm/gathering/indirect_cache.h"
+
+#include <array>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/photon/photon_map.h"
+
+namespace kaustik {
+namespace {
+
+/// Distances, in pixels, between those whose surfaces ask for records, round by round.
+constexpr std::array<int, IndirectCache::most_rounds> strides{8, 4};
+// In the first pass; see CacheSettings.
+constexpr float first_quality = 0.25f, first_minimum_spacing = 3, first_maximum_spacing = 40;
+
+CacheSettings settings_of(const Pass& pass, int samples) {
+  CacheSettings settings;
+  const float shrinkage = pass_radius(1, pass.stage());
+  settings.quality = first_quality * shrinkage;
+  settings.minimum_spacing = first_minimum_spacing * shrinkage;
+  settings.maximum_spacing = first_maximum_spacing * shrinkage;
+  settings.hemisphere.samples = samples;
+  settings.hemisphere.hessian = true;
+  return settings;
+}
+
+CachePoint cache_point_of(const CameraWalk& walk) {
+  const Footprint& footprint = walk.footprint();
+  const Vec3f normal = walk.vertex().facing_normal();
+  return {walk.vertex().point(), normal, 2 * std::min(footprint.width, footprint.sharp_width), 1,
+          walk.vertex().medium_toward(normal, walk.medium())};
+}
+
+}  // namespace
+
+IndirectCache::IndirectCache(const GatherInputs& inputs, const Pass& pass, int samples)
+    : in_(inputs), pass_(pass), light_(inputs), cache_(settings_of(pass, samples)) {}
+
+void IndirectCache::fill_round(const std::stop_token& stop) {
+  const std::vector<CachePoint> points = points_of_round(strides[round_], stop);
+  if (stop.stop_requested()) return;
+  const Sampler sampler = Sampler::at(pass_.seed, pass_.index, Stream::cache, 0, 0);
+  cache_.fill_round(points, light_, sampler, round_++, stop);
+}
+
+std::vector<CachePoint> IndirectCache::points_of_round(int stride,
+                                                       const std::stop_token& stop) const {
+  const FilmSettings& film = in_.scene.film();
+  const Vec2i first = film.crop_offset / stride;
+  const Vec2i end = (film.crop_offset + film.crop_size + Vec2i(stride - 1)) / stride;
+  std::vector<std::vector<CachePoint>> rows(size_t(end.y - first.y));
+  parallel_blocks(rows.size(), 1, [&](size_t row, size_t, size_t) {
+    for (int x = first.x; x < end.x && !stop.stop_requested(); ++x) {
+      const Vec2i pixel = Vec2i(x, first.y + int(row)) * stride;
+      const uint64_t address = uint64_t(pixel.y) * uint64_t(film.size.x) + uint64_t(pixel.x) + 1;
+      Sampler numbers = Sampler::at(pass_.seed, pass_.index, Stream::cache, address, round_);
+      const Vec2i corner = pixel - film.crop_offset;
+      const Vec2f raster =
+          Vec2f(float(corner.x), float(corner.y)) + numbers.next_2d() * float(stride);
+      SampleSink nowhere{ComponentSet(), pass_.wavelengths};
+      CameraWalk walk(in_.scene, raster, numbers, nowhere);
+      if (walk.advance() && is_for(walk)) rows[row].push_back(cache_point_of(walk));
+    }
+  });
+  std::vector<CachePoint> points;
+  for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
+  return points;
+}
+
+bool IndirectCache::serves(const CameraWalk& walk) const {
+  return cache_.serves(cache_point_of(walk));
+}
+
+bool IndirectCache::reflected(const CameraWalk& walk, Spectrum& radiance) const {
+  const CachePoint point = cache_point_of(walk);
+  Spectrum irradiance;
+  if (!cache_.serves(point) || !cache_.interpolate(point, irradiance)) return false;
+  radiance = walk.vertex().diffuse_value() * irradiance;
+  return true;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,52 @@
+#pragma once
+#include "kaustik/irradiance/irradiance_cache.h"
+#include "kaustik/transport/camera_walk.h"
+#include "kaustik/vcm/gathering/gathered_light.h"
+
+namespace kaustik {
+
+/// Diffuse indirect light of a pass where the camera sees matt surfaces: gathered at records, and
+/// interpolated between them where it is smooth. Elsewhere it has none, and other techniques have
+/// to find that light. Where it has it, it has all of it.
+class IndirectCache {
+ public:
+  /// Rounds in which it is filled, from coarse to fine. Finer ones find little that is smooth.
+  static constexpr int most_rounds = 2;
+  /// Gather rays of a record.
+  static constexpr int usual_samples = 128;
+
+  /// Empty. `inputs` must outlive it. All lengths shrink as radii do, by the stage of `pass`.
+  IndirectCache(const GatherInputs& inputs, const Pass& pass, int samples = usual_samples);
+
+  /// The next of its rounds. Worth nothing if it was stopped. Not while others ask.
+  void fill_round(const std::stop_token& stop);
+
+  /// Whether there may ever be light for the walk's vertex: the first of its path, without relief,
+  /// whose diffuse lobe sends light back alike to all sides.
+  static bool is_for(const CameraWalk& walk) {
+    const SurfaceVertex& vertex = walk.vertex();
+    return walk.events() == 0 && walk.gauge() < 0 && any(vertex.lobes() & Lobes::diffuse) &&
+           vertex.is_lambertian() && !vertex.transmits() && !vertex.has_relief();
+  }
+  /// Whether it has the light of such a vertex.
+  bool serves(const CameraWalk& walk) const;
+  /// Radiance that the diffuse lobe of such a vertex sends back of diffuse indirect light; false if
+  /// it has none.
+  bool reflected(const CameraWalk& walk, Spectrum& radiance) const;
+
+  /// Traced so far.
+  uint64_t rays() const { return light_.rays(); }
+  uint64_t rays_dropped() const { return cache_.rays_dropped(); }
+  size_t record_count() const { return cache_.record_count(); }
+
+ private:
+  std::vector<CachePoint> points_of_round(int stride, const std::stop_token& stop) const;
+
+  GatherInputs in_;
+  Pass pass_;
+  GatheredLight light_;
+  IrradianceCache cache_;
+  uint32_t round_ = 0;
+};
+
+}  // namespace kaustik
