@@ -48,6 +48,10 @@ TEST_F(Furnace, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {16})); }
 TEST_F(Furnace, VcmLong) { check("vcm", render(scene_, "vcm", many_light_paths(), {80})); }
 TEST_F(Furnace, PpmLong) { check("ppm", render(scene_, "ppm", many_light_paths(), {100})); }
 TEST_F(Furnace, Auto) { check("auto", render(scene_, "auto", "", {100})); }
+/// Gather rays have no bias of disks, and find the light of all numbers of events.
+TEST_F(Furnace, IndirectCache) {
+  check("cached", render(scene_, "ppm", set("indirect_cache", "always"), {8}));
+}
 TEST_F(Furnace, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(8'000), {16}));
 }

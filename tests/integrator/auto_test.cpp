@@ -97,6 +97,40 @@ TEST(Auto, DecidesByTheScene) {
   EXPECT_GT(going_on(both), 40) << both;
 }
 
+/// Behind a glass ball light is focused, on the walls that gather rays meet as well.
+TEST(Auto, CacheHasTheIndirectLightOfPath) {
+  const TestScene scene(room_of_auto(ceiling_lamp(ceiling, 8) +
+                                         sphere("0.3, 0.3, 0.6", 0.4, glass()) +
+                                         sphere("-0.4, 0.4, 0.3", 0.3, phong(0.4, 0.3, 20)),
+                                     slow_build ? 32 : 64));
+  const Passes path = render(scene, "path", "", {100});
+  const Passes cached = render(scene, "ppm", set("indirect_cache", "always"), {12});
+  for (const std::string component : {"indirect", "caustic", "direct", "specular"})
+    expect_near_means("cached " + component,
+                      Comparison(cached.mean({component}), path.mean({component})), 0.01, 0.005);
+}
+
+/// A matt room is smooth, and gathering shows the whole of it to what the camera sees.
+TEST(Auto, CachesIndirectLightWhereItIsSmooth) {
+  const auto has_cache = [](const std::string& scene_text, const std::string& parameters) {
+    const TestScene scene(scene_text);
+    SplatBuffer splats(scene.scene().film(), ComponentSet());
+    const auto integrator = scene.integrator("ppm", parameters);
+    const auto state = integrator->prepare({0, 0, 4}, splats, {}, {});
+    const std::vector<std::string>& decisions = state->report.decisions;
+    return std::any_of(decisions.begin(), decisions.end(), [](const std::string& text) {
+      return text.find("diffuse indirect light is gathered") == 0;
+    });
+  };
+  const std::string smooth = room_of_auto(ceiling_lamp(ceiling, 8), 64);
+  EXPECT_TRUE(has_cache(smooth, ""));
+  EXPECT_FALSE(has_cache(smooth, set("indirect_cache", "never")));
+  // There is no indirect light.
+  const std::string floor = open_floor("", 64);
+  EXPECT_FALSE(has_cache(floor, ""));
+  EXPECT_TRUE(has_cache(floor, set("indirect_cache", "always")));
+}
+
 // Slow builds take too few samples to tell.
 #ifndef KAUSTIK_SLOW_BUILD
 

@@ -37,6 +37,7 @@ std::vector<Method> methods(int photons = 5000) {
           {"bdpt", ""},
           {"auto", ""},
           {"ppm", ""},
+          {"ppm", set("indirect_cache", "always")},
           {"photonmap", counts},
           {"photonmap", counts + set("irradiance_cache", false) + set("reradiate", true)}};
 }

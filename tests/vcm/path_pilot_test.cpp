@@ -82,6 +82,10 @@ TEST(PathPilot, KnowsRaysAndNoiseOfABall) {
     EXPECT_NEAR(probe.path_variance, 0, 1e-7);
     EXPECT_NEAR(probe.path_mean_square, sqr(even), 1e-3 * sqr(even));
     EXPECT_EQ(probe.merged_alone, 0);
+    // All that is found beyond is diffuse indirect light, of which a cache leaves nothing.
+    for (const double squares : probe.ungathered.squares) EXPECT_EQ(squares, 0);
+    EXPECT_EQ(probe.ungathered.path_mean_square, 0);
+    EXPECT_NEAR(probe.gather_variance, 0, 1e-7);
   }
   EXPECT_EQ(pilot.rays, pilot.probes.size() * 8 * 6);
 }

@@ -207,6 +207,33 @@ TEST(VcmPlans, SettleByWhatIsChosen) {
   EXPECT_EQ(plans.pixels.plans()[0].survival, 1);
 }
 
+/// With a cache they are chosen by what it leaves, and by what it costs.
+TEST(VcmPlans, SettleByWhatACacheLeaves) {
+  VcmPlans plans = two_probes();
+  const TestScene scene(view_of_floor(diffuse("0.5, 0.5, 0.5"), 4));
+  plans.pixels = PixelPlans(scene.scene());
+  VcmPilot one = *plans.pilot;
+  one.probes.pop_back();
+  one.areas.pop_back();
+  one.probes[0].ungathered.squares[ProbeStatistics::bin_of_one] = 0.001;
+  one.probes[0].gather_variance = 2;
+  one.with_cache[0] = {{one.probes[0].with_cache(100)}, 10};
+  EXPECT_TRUE(one.has_tried(0) && one.has_tried(1));
+  EXPECT_FALSE(one.has_tried(2));
+  plans.pilot = std::make_shared<const VcmPilot>(one);
+  plans.choices = {.survival = false, .light_samples = false};
+  const std::vector<PixelPlan> disks{{1.5f, 1, 1}};
+  const Efficiency without = plans.settle(disks, 0.25f);
+  plans.cache_rounds = 1;
+  const Efficiency with = plans.settle(disks, 0.25f);
+  EXPECT_DOUBLE_EQ(with.rays, without.rays + 10 * cost_model.gather_ray);
+  // 4 samples, of which all go on; 4 times the light paths merge in 3/4 of the area.
+  const double relative = 1 / 1.01, nu = 0.75 * 4;
+  const double direct = 1.0 / 4;
+  EXPECT_NEAR(without.squared_error, (1 / (4 + 64 * nu) + direct) * relative, 1e-9);
+  EXPECT_NEAR(with.squared_error, (0.001 / (4 + nu) + direct + 2.0 / 200) * relative, 1e-9);
+}
+
 /// What the camera sees from 2 m off counts as near within one degree.
 TEST(VcmPlans, AcceptedAreaGoesByTheDistance) {
   const TestScene scene(camera("0, 0, 2", "0, 0, 0", 1, 8, "0, 1, 0") +
