@@ -50,7 +50,8 @@ TEST_F(Furnace, PpmLong) { check("ppm", render(scene_, "ppm", many_light_paths()
 TEST_F(Furnace, Auto) { check("auto", render(scene_, "auto", "", {100})); }
 /// Gather rays have no bias of disks, and find the light of all numbers of events.
 TEST_F(Furnace, IndirectCache) {
-  check("cached", render(scene_, "ppm", set("indirect_cache", "always"), {8}));
+  check("cached",
+        render(scene_, "ppm", many_light_paths() + set("indirect_cache", "always"), {20}));
 }
 TEST_F(Furnace, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(8'000), {16}));

@@ -293,9 +293,10 @@ TEST(PathPilot, ExpectsTheVarianceOfMergingLong) {
   const TestScene test(hollow());
   for (const bool next_event : {true, false}) {
     SCOPED_TRACE(next_event ? "both ways" : "merging alone");
-    const auto ppm = test.integrator(
-        "ppm", set("guiding", false) + set("radius", double(merge_radius)) +
-                   set("light_paths", double(light_paths)) + set("next_event", next_event));
+    const auto ppm =
+        test.integrator("ppm", set("guiding", false) + set("radius", double(merge_radius)) +
+                                   set("light_paths", double(light_paths)) +
+                                   set("next_event", next_event) + set("indirect_cache", "never"));
     const Forecast found = measured(test, *ppm);
     for (const double light_share : {1.0, 0.25}) {
       SCOPED_TRACE(light_share);

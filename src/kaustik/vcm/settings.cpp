@@ -72,11 +72,12 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       boolean_parameter("choose_light_samples", true,
                         "With merging on, a pilot chooses, place by place, how many lights the "
                         "first vertex of the camera's paths samples; else it samples one."),
-      choice_parameter("indirect_cache", "choose", {"never", "choose", "always"},
-                       "Diffuse indirect light is gathered at some places of what the camera sees, "
-                       "and interpolated between them where it is smooth: where a pilot says that "
-                       "this pays, or in any case. With merging, without splats and connections, "
-                       "and where no medium scatters light."),
+      choice_parameter(
+          "indirect_cache", "choose", {"never", "choose", "always"},
+          "Diffuse indirect light is gathered at some places of what the camera sees, "
+          "and interpolated between them where it is smooth: where a pilot says that "
+          "this pays, or in any case. It needs merging, next_event and unidirectional, "
+          "no splats or connections, and no medium that scatters light."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
       adaptive_parameter(),
       hide_emitters_parameter()};
@@ -226,15 +227,16 @@ void adapt_to_few_pixels(const Arguments& arguments, const CameraTraits& camera,
 /// The cache has all of its component, which other techniques must not find again.
 void adapt_cache(const Scene& scene, VcmSettings& settings) {
   const Techniques& techniques = settings.techniques;
-  const bool can_be = techniques.merging && !techniques.splats && !techniques.connections &&
+  const bool can_be = techniques.merging && techniques.next_event && techniques.unidirectional &&
+                      !techniques.splats && !techniques.connections &&
                       settings.components.has(Component::indirect) && !scene.has_scattering() &&
                       scene.gauges().empty() && !scene.camera().traits().are_pixels_apart() &&
                       scene.film().quantity == Quantity::radiance;
   if (can_be) return;
   if (settings.choices.cache == CacheUse::always)
     settings.warnings.emplace_back(
-        "indirect_cache has no effect here: it needs merging, no splats or connections, no medium "
-        "that scatters light, and a camera that sees radiance");
+        "indirect_cache has no effect here: it needs merging, next_event and unidirectional, no "
+        "splats or connections, no medium that scatters light, and a camera that sees radiance");
   settings.choices.cache = CacheUse::never;
 }
 

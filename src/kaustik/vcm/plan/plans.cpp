@@ -42,7 +42,7 @@ constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
 /// Fewer have wider disks, whose bias is not counted: they must be so much better.
 constexpr double worth_fewer = 1.25;
 /// The bias of a cache is not counted either.
-constexpr double worth_caching = 1.1;
+constexpr double worth_caching = 1.25;
 /// Gather rays of a record in a trial.
 constexpr int trial_samples = 64;
 constexpr float near_per_distance = 0.01746f;  // tan 1°
