@@ -25,7 +25,7 @@ plant src/kaustik/loader/mitsuba_xml.cpp '#include "kaustik/scene/scene.h"' "des
 plant src/kaustik/scene/scene.h '#include "kaustik/nowhere/thing.h"' "there is no room 'nowhere'"
 # The two methods over photons know nothing of each other, and what is below knows neither.
 plant src/kaustik/vcm/vcm.cpp '#include "kaustik/photonmap/photon_map_integrator.h"' "room 'vcm' must not include"
-plant src/kaustik/vcm/plan/plans.cpp '#include "kaustik/irradiance/hemisphere.h"' "room 'vcm' must not include"
+plant src/kaustik/vcm/gathering/gathered_light.h '#include "kaustik/vcm/plan/plans.h"' "folder 'vcm/gathering' must not include"
 plant src/kaustik/vcm/settings.cpp '#include "kaustik/integrator/registry.h"' "room 'vcm' must not include"
 plant src/kaustik/photonmap/photon_light.cpp '#include "kaustik/vcm/vcm.h"' "room 'photonmap' must not include"
 plant src/kaustik/photon/photon_map.h '#include "kaustik/vcm/light_vertices.h"' "room 'photon' must not include"

@@ -217,7 +217,7 @@ TEST(VcmPlans, SettleByWhatACacheLeaves) {
   one.areas.pop_back();
   one.probes[0].ungathered.squares[ProbeStatistics::bin_of_one] = 0.001;
   one.probes[0].gather_variance = 2;
-  one.with_cache[0] = {{one.probes[0].with_cache(100)}, 10};
+  one.cache_trials[0] = {{1}, 10};
   EXPECT_TRUE(one.has_tried(0) && one.has_tried(1));
   EXPECT_FALSE(one.has_tried(2));
   plans.pilot = std::make_shared<const VcmPilot>(one);
@@ -231,7 +231,8 @@ TEST(VcmPlans, SettleByWhatACacheLeaves) {
   const double relative = 1 / 1.01, nu = 0.75 * 4;
   const double direct = 1.0 / 4;
   EXPECT_NEAR(without.squared_error, (1 / (4 + 64 * nu) + direct) * relative, 1e-9);
-  EXPECT_NEAR(with.squared_error, (0.001 / (4 + nu) + direct + 2.0 / 200) * relative, 1e-9);
+  const double gathered = 2.0 / (2 * IndirectCache::usual_samples);
+  EXPECT_NEAR(with.squared_error, (0.001 / (4 + nu) + direct + gathered) * relative, 1e-9);
 }
 
 /// What the camera sees from 2 m off counts as near within one degree.

@@ -273,7 +273,9 @@ bool IrradianceCache::interpolate(const CachePoint& at, Spectrum& irradiance, fl
   return impl_->octree.interpolate(at.point.position, at.normal, relax, irradiance, at.pixel_width);
 }
 
-bool IrradianceCache::serves(const CachePoint& at) const { return impl_->serves(at, 1); }
+bool IrradianceCache::serves(const CachePoint& at, float tolerance) const {
+  return impl_->serves(at, tolerance);
+}
 
 size_t IrradianceCache::record_count() const { return impl_->records.size(); }
 const std::vector<CacheRecord>& IrradianceCache::records() const { return impl_->octree.records(); }

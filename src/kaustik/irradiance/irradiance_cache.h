@@ -71,8 +71,9 @@ class IrradianceCache {
   /// (of records that serve only so, those listed nearby). Thread-safe.
   bool interpolate(const CachePoint& at, Spectrum& irradiance, float relax = 1) const;
 
-  /// Whether a record serves the point as the filling of the cache asks for. Thread-safe.
-  bool serves(const CachePoint& at) const;
+  /// Whether a record serves the point as the filling of the cache asks for, with an error that may
+  /// be `tolerance` times as large, from 1 to RecordOctree::overlap. Thread-safe.
+  bool serves(const CachePoint& at, float tolerance = 1) const;
 
   size_t record_count() const;
   /// For pictures of the cache.

@@ -224,19 +224,31 @@ void adapt_to_few_pixels(const Arguments& arguments, const CameraTraits& camera,
     settings.light_paths = std::max(settings.light_paths, light_paths_of_pixels_apart / pixels);
 }
 
+/// Lamps that only paths from the camera meet: gather rays, which count no lamps that they meet,
+/// would lose their light.
+bool has_lamps_only_seen(const Scene& scene) {
+  const auto& lights = scene.lights();
+  return std::any_of(
+      scene.environment_lights().begin(), scene.environment_lights().end(),
+      [&](int index) { return lights[size_t(index)]->distant().traits().is_only_seen; });
+}
+
 /// The cache has all of its component, which other techniques must not find again.
 void adapt_cache(const Scene& scene, VcmSettings& settings) {
   const Techniques& techniques = settings.techniques;
   const bool can_be = techniques.merging && techniques.next_event && techniques.unidirectional &&
                       !techniques.splats && !techniques.connections &&
                       settings.components.has(Component::indirect) && !scene.has_scattering() &&
-                      scene.gauges().empty() && !scene.camera().traits().are_pixels_apart() &&
+                      scene.gauges().empty() && !has_lamps_only_seen(scene) &&
+                      !scene.camera().traits().are_pixels_apart() &&
                       scene.film().quantity == Quantity::radiance;
   if (can_be) return;
   if (settings.choices.cache == CacheUse::always)
     settings.warnings.emplace_back(
         "indirect_cache has no effect here: it needs merging, next_event and unidirectional, no "
-        "splats or connections, no medium that scatters light, and a camera that sees radiance");
+        "splats or connections, no medium that scatters light, the component indirect, and a "
+        "camera "
+        "whose pixels see radiance side by side");
   settings.choices.cache = CacheUse::never;
 }
 

@@ -1,5 +1,8 @@
 #include "kaustik/vcm/gathering/gathered_light.h"
 
+#include <cmath>
+
+#include "kaustik/photon/coverage/merge_disk.h"
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/roulette.h"
 #include "kaustik/transport/travel.h"
@@ -30,15 +33,19 @@ Spectrum GatheredLight::direct_light(const SurfaceVertex& vertex, const PathStat
 Spectrum GatheredLight::focused_light(const SurfaceVertex& vertex, int events) const {
   const SidedTree<LightVertexData>& tree = in_.light.tree;
   if (tree.empty() || !(in_.merge_radius_sq > 0)) return {};
-  const Vec3f& ng = vertex.point().ng;
+  const MergeDisk disk(vertex, std::sqrt(in_.merge_radius_sq));
+  const bool both_sides = disk.both_sides();
   Spectrum sum;
-  tree.within(vertex.position(), vertex.on_front() ? ng : -ng, vertex.transmits(),
+  tree.within(vertex.position(), both_sides ? vertex.point().ng : disk.side(), both_sides,
               in_.merge_radius_sq, [&](uint32_t index, float) {
                 const LightVertexData& data = tree.tree().data(index);
                 if (!data.specular || events + int(data.before) > in_.maximum_events) return;
+                const float share =
+                    disk.share(tree.tree().key(index) - vertex.position(), data.side);
+                if (!(share > 0)) return;
                 const Vec3f wi = data.direction.unpack();
                 const float factor = vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f;
-                sum += vertex.eval(wi, Lobes::diffuse) * data.flux.spectrum() * factor;
+                sum += vertex.eval(wi, Lobes::diffuse) * data.flux.spectrum() * (share * factor);
               });
   return sum * (1 / (pi * in_.merge_radius_sq * float(in_.light.path_count)));
 }

@@ -21,7 +21,7 @@ struct GatherInputs {
 /// have found all of their light. Knows no light that media scatter.
 class GatheredLight final : public RadianceSource {
  public:
-  /// All of `inputs` must outlive this.
+  /// What `inputs` refer to must outlive this.
   explicit GatheredLight(const GatherInputs& inputs) : in_(inputs) {}
 
   Incoming incoming(const SurfacePoint& from, const Vec3f& direction,

@@ -13,6 +13,10 @@ constexpr std::array<int, IndirectCache::most_rounds> strides{8, 4};
 // In the first pass; see CacheSettings.
 constexpr float first_quality = 0.25f, first_minimum_spacing = 3, first_maximum_spacing = 40;
 
+/// How much larger an error than in filling is allowed to who asks: else slivers between records
+/// would have other, coarser noise.
+constexpr float allowed_error = 1.4f;
+
 CacheSettings settings_of(const Pass& pass, int samples) {
   CacheSettings settings;
   const float shrinkage = pass_radius(1, pass.stage());
@@ -20,7 +24,6 @@ CacheSettings settings_of(const Pass& pass, int samples) {
   settings.minimum_spacing = first_minimum_spacing * shrinkage;
   settings.maximum_spacing = first_maximum_spacing * shrinkage;
   settings.hemisphere.samples = samples;
-  settings.hemisphere.hessian = true;
   return settings;
 }
 
@@ -68,13 +71,13 @@ std::vector<CachePoint> IndirectCache::points_of_round(int stride,
 }
 
 bool IndirectCache::serves(const CameraWalk& walk) const {
-  return cache_.serves(cache_point_of(walk));
+  return cache_.serves(cache_point_of(walk), allowed_error);
 }
 
 bool IndirectCache::reflected(const CameraWalk& walk, Spectrum& radiance) const {
   const CachePoint point = cache_point_of(walk);
   Spectrum irradiance;
-  if (!cache_.serves(point) || !cache_.interpolate(point, irradiance)) return false;
+  if (!cache_.serves(point, allowed_error) || !cache_.interpolate(point, irradiance)) return false;
   radiance = walk.vertex().diffuse_value() * irradiance;
   return true;
 }

@@ -15,7 +15,8 @@ class IndirectCache {
   /// Gather rays of a record.
   static constexpr int usual_samples = 128;
 
-  /// Empty. `inputs` must outlive it. All lengths shrink as radii do, by the stage of `pass`.
+  /// Empty. What `inputs` refer to must outlive it. All lengths shrink as radii do, by the stage of
+  /// `pass`.
   IndirectCache(const GatherInputs& inputs, const Pass& pass, int samples = usual_samples);
 
   /// The next of its rounds. Worth nothing if it was stopped. Not while others ask.
@@ -37,7 +38,6 @@ class IndirectCache {
   /// Traced so far.
   uint64_t rays() const { return light_.rays(); }
   uint64_t rays_dropped() const { return cache_.rays_dropped(); }
-  size_t record_count() const { return cache_.record_count(); }
 
  private:
   std::vector<CachePoint> points_of_round(int stride, const std::stop_token& stop) const;

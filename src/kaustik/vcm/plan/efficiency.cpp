@@ -26,7 +26,7 @@ constexpr size_t probes_at_a_time = 256;
 constexpr double share_of_mean_unknown = 0.1;
 
 bool has_found_nothing(const ProbeStatistics& probe) {
-  return probe.rays_beyond > 0 && probe.merged_alone == 0 &&
+  return probe.cache_share == 0 && probe.rays_beyond > 0 && probe.merged_alone == 0 &&
          std::all_of(probe.squares.begin(), probe.squares.end(), [](double s) { return s == 0; });
 }
 
@@ -197,6 +197,7 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   ungathered.path_mean_square += weight * other.ungathered.path_mean_square;
   ungathered.path_variance += weight * other.ungathered.path_variance;
   gather_variance += weight * other.gather_variance;
+  cache_share += weight * other.cache_share;
   cache_variance += weight * other.cache_variance;
 }
 
@@ -207,6 +208,7 @@ ProbeStatistics ProbeStatistics::with_cache(int gather_rays) const {
   rest.path_mean_square = ungathered.path_mean_square;
   rest.path_variance = ungathered.path_variance;
   constexpr double worth = 2;
+  rest.cache_share = 1;
   rest.cache_variance = gather_variance / (worth * gather_rays);
   return rest;
 }
@@ -215,7 +217,8 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
                                 const std::vector<MergeScale>& scales) {
   double merging = 0;
   for (size_t p = 0; p < probes.size(); ++p) merging += rays_to_merge(probes[p], scales[p]);
-  return merging / double(std::max<size_t>(1, probes.size())) + rays_of_light_paths(costs, scales);
+  return merging / double(std::max<size_t>(1, probes.size())) + rays_of_light_paths(costs, scales) +
+         cost_model.gather_ray * costs.cache_rays;
 }
 
 Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,

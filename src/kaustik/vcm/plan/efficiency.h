@@ -37,7 +37,8 @@ struct ProbeStatistics {
   } ungathered;
   /// … and the variance of that light by one gather ray.
   double gather_variance = 0;
-  double cache_variance = 0;  ///< what a cache leaves of it; 0: there is none
+  double cache_share = 0;     ///< 1 where a cache has that light, …
+  double cache_variance = 0;  ///< … which then has this variance in a pass
   /// What is left where records of a cache have found that light by so many gather rays each. These
   /// are worth twice as many: they stratify one another, and several records are interpolated.
   ProbeStatistics with_cache(int gather_rays) const;
@@ -79,7 +80,7 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
 /// the balance heuristic, ∫ f² / (κ p + ν m): S camera samples, of which a share s goes on, and v
 /// the ratio of their mean square to their variance (variance-aware weights, Grittmann et al.
 /// 2019). To this comes the variance of direct light over S, a part of which n samples of lights
-/// divide by n.
+/// divide by n, and that of what a cache has.
 /// Writes survival, evenness and light_samples of `plans`, one for each probe, and returns what is
 /// expected. `scales` by probe; light_paths 0: nothing merges. What is not asked for is written
 /// as 1.

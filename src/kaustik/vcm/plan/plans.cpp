@@ -144,7 +144,8 @@ VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token&
   const auto of_paths_alone = with(0, 0);
   const bool needs_merging = plans.pilot->needs_merging;
   auto best = of_paths_alone;
-  if (needs_merging) best.second.squared_error = std::numeric_limits<double>::infinity();
+  if (needs_merging || plans.choices.cache == CacheUse::always)
+    best.second.squared_error = std::numeric_limits<double>::infinity();
   for (const float factor : light_path_factors)
     for (const int rounds : rounds_to_choose_from(plans)) {
       if (stop.stop_requested()) return plans;
@@ -180,6 +181,21 @@ std::string described(const LightGuides& guides) {
 }
 
 }  // namespace
+
+std::vector<ProbeStatistics> VcmPilot::probes_with(int cache_rounds) const {
+  std::vector<ProbeStatistics> result = probes;
+  if (cache_rounds == 0) return result;
+  const std::vector<uint8_t>& served = cache_trials[size_t(cache_rounds) - 1].served;
+  for (size_t i = 0; i < result.size(); ++i)
+    if (served[i]) result[i] = result[i].with_cache(IndirectCache::usual_samples);
+  return result;
+}
+
+PassCosts VcmPilot::costs_with(int cache_rounds) const {
+  PassCosts result = costs;
+  if (cache_rounds > 0) result.cache_rays = cache_trials[size_t(cache_rounds) - 1].rays;
+  return result;
+}
 
 LightGuides LightGuides::guided_by(const LightPathUse& learned, const std::stop_token& stop) const {
   LightGuides result = *this;
@@ -466,16 +482,16 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
 
 void VcmPlanner::try_cache(const GatherInputs& inputs, const PixelPlans& pixels, VcmPilot& pilot,
                            const std::stop_token& stop, uint64_t& rays) const {
-  constexpr int usual = IndirectCache::usual_samples;
-  if (settings_.choices.cache == CacheUse::always) {
-    VcmPilot::WithCache& all = pilot.with_cache.back();
-    for (const ProbeStatistics& probe : pilot.probes) all.probes.push_back(probe.with_cache(usual));
+  const bool is_asked_for = settings_.choices.cache == CacheUse::always;
+  const auto& all = pilot.probes;
+  if (!is_asked_for && std::none_of(all.begin(), all.end(), [](const ProbeStatistics& probe) {
+        return probe.gather_variance > 0;
+      }))
     return;
-  }
   const Vec2i size = scene_.film().crop_size;
   const double samples = pilot.costs.camera_samples * double(size.x) * double(size.y);
   const std::vector<PixelProbe>& probes = pixels.seen().probes();
-  const std::vector<MergeScale> scales(pilot.probes.size());
+  const std::vector<MergeScale> scales(probes.size());
   const auto time = [&](int rounds) {
     std::vector<PixelPlan> disks = pixels.plans();
     return choose_plans(pilot.probes_with(rounds), pilot.costs_with(rounds), scales,
@@ -486,20 +502,19 @@ void VcmPlanner::try_cache(const GatherInputs& inputs, const PixelPlans& pixels,
   for (int rounds = 1; rounds <= IndirectCache::most_rounds; ++rounds) {
     cache.fill_round(stop);
     if (stop.stop_requested()) return;
-    VcmPilot::WithCache& found = pilot.with_cache[size_t(rounds) - 1];
-    found.rays = double(cache.rays()) * usual / trial_samples / samples;
-    found.probes = pilot.probes;
+    VcmPilot::CacheTrial& trial = pilot.cache_trials[size_t(rounds) - 1];
+    trial.rays = double(cache.rays()) * IndirectCache::usual_samples / trial_samples / samples;
+    trial.served.assign(probes.size(), 0);
     parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {
       for (size_t i = begin; i < end; ++i) {
         Sampler numbers = Sampler::at(0, 0, Stream::pilot_path, i, 0);
         SampleSink nowhere{ComponentSet()};
         CameraWalk walk(scene_, probes[i].raster, numbers, nowhere);
-        if (walk.advance() && IndirectCache::is_for(walk) && cache.serves(walk))
-          found.probes[i] = pilot.probes[i].with_cache(usual);
+        trial.served[i] = walk.advance() && IndirectCache::is_for(walk) && cache.serves(walk);
       }
     });
     // Finer rounds cost more, and serve less.
-    if (!(time(rounds) < time(rounds - 1))) break;
+    if (!is_asked_for && !(time(rounds) < time(rounds - 1))) break;
   }
   rays += cache.rays();
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,25 +21,19 @@ struct VcmPilot {
   std::vector<ProbeStatistics> probes;
   std::vector<float> areas;  ///< of the disks that they were taken with, m²
   PassCosts costs;
-  /// The same where the cache has what a trial of one round, of two … served; without probes:
-  /// not tried.
-  struct WithCache {
-    std::vector<ProbeStatistics> probes;
-    double rays = 0;  ///< PassCosts::cache_rays
+  /// What a trial of the cache tells.
+  struct CacheTrial {
+    std::vector<uint8_t> served;  ///< probe by probe: whether it has the light there
+    double rays = 0;              ///< PassCosts::cache_rays
   };
-  std::array<WithCache, IndirectCache::most_rounds> with_cache;
-  /// Of passes that fill the cache in so many rounds.
+  /// Of one round, of two …; without probes: not tried.
+  std::array<CacheTrial, IndirectCache::most_rounds> cache_trials;
+  // Of passes that fill the cache in so many rounds, 0: that have none.
   bool has_tried(int cache_rounds) const {
-    return cache_rounds == 0 || !with_cache[size_t(cache_rounds) - 1].probes.empty();
+    return cache_rounds == 0 || !cache_trials[size_t(cache_rounds) - 1].served.empty();
   }
-  const std::vector<ProbeStatistics>& probes_with(int cache_rounds) const {
-    return cache_rounds == 0 ? probes : with_cache[size_t(cache_rounds) - 1].probes;
-  }
-  PassCosts costs_with(int cache_rounds) const {
-    PassCosts result = costs;
-    if (cache_rounds > 0) result.cache_rays = with_cache[size_t(cache_rounds) - 1].rays;
-    return result;
-  }
+  std::vector<ProbeStatistics> probes_with(int cache_rounds) const;
+  PassCosts costs_with(int cache_rounds) const;
   float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
   /// Light arrives somewhere in the scene that no path from the camera can find, or media scatter
   /// it, of which the pilot knows nothing.

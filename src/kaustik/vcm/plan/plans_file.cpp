@@ -51,11 +51,11 @@ void write_pilot(ByteWriter& writer, const VcmPilot* pilot) {
   writer.put(pilot->costs);
   writer.put(pilot->light_paths);
   writer.put(uint8_t(pilot->needs_merging ? 1 : 0));
-  for (const VcmPilot::WithCache& with_cache : pilot->with_cache) {
-    writer.put(uint8_t(with_cache.probes.empty() ? 0 : 1));
-    if (with_cache.probes.empty()) continue;
-    writer.put_array(with_cache.probes);
-    writer.put(with_cache.rays);
+  for (const VcmPilot::CacheTrial& trial : pilot->cache_trials) {
+    writer.put(uint8_t(trial.served.empty() ? 0 : 1));
+    if (trial.served.empty()) continue;
+    writer.put_array(trial.served);
+    writer.put(trial.rays);
   }
 }
 
@@ -67,10 +67,11 @@ std::shared_ptr<const VcmPilot> read_pilot(ByteReader& reader, size_t probes) {
   pilot.costs = reader.get<PassCosts>();
   pilot.light_paths = reader.get<float>();
   pilot.needs_merging = reader.get_flag();
-  for (VcmPilot::WithCache& with_cache : pilot.with_cache) {
+  for (VcmPilot::CacheTrial& trial : pilot.cache_trials) {
     if (!reader.get_flag()) continue;
-    with_cache.probes = reader.get_array<ProbeStatistics>(probes);
-    with_cache.rays = reader.get<double>();
+    trial.served = reader.get_array<uint8_t>(probes);
+    trial.rays = reader.get<double>();
+    if (!(trial.rays >= 0)) reader.damaged("filling a cache in it takes less than no rays");
   }
   return std::make_shared<const VcmPilot>(std::move(pilot));
 }
@@ -127,8 +128,10 @@ VcmPlans PlansReader::next() {
   for (uint64_t i = 0; i < decisions; ++i) plans.decisions.push_back(reader_.get_text());
   plans.connectible_per_path = reader_.get<float>();
   plans.cache_rounds = reader_.get<int32_t>();
+  const bool may_have_cache = plans.pilot && settings_.choices.cache != CacheUse::never &&
+                              !plans.techniques.splats && !plans.techniques.connections;
   if (plans.cache_rounds < 0 || plans.cache_rounds > IndirectCache::most_rounds ||
-      (plans.pilot && !plans.pilot->has_tried(plans.cache_rounds)))
+      (plans.cache_rounds > 0 && !(may_have_cache && plans.pilot->has_tried(plans.cache_rounds))))
     reader_.damaged("its cache is filled in a number of rounds that was not tried");
   plans.choices = settings_.choices;
   return plans;

@@ -1,0 +1,94 @@
+// The cache of indirect light in a furnace, where all of it is known.
+
+#include "kaustik/vcm/gathering/indirect_cache.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+constexpr double furnace_albedo = 0.5;
+
+/// A closed ball that emits 1 everywhere: after each event `furnace_albedo` times as much light is
+/// left.
+TestScene matt_furnace() {
+  return TestScene(camera("0.2, 0.1, -0.3", "1, 0.3, 0.2", 80, 64) +
+                   sphere("0, 0, 0", 1, diffuse("0.5, 0.5, 0.5") + area_light("1, 1, 1"), true));
+}
+
+struct Served {
+  double share = 0;  ///< of the places
+  RunningStatistics radiance;
+};
+
+/// What caches of some passes have at places all over the picture.
+Served served_by(const Scene& scene, int maximum_events, uint32_t passes) {
+  Served result;
+  const LightVertices no_light;
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    IndirectCache cache({.scene = scene, .light = no_light, .maximum_events = maximum_events},
+                        {0, pass, 1});
+    for (int round = 0; round < IndirectCache::most_rounds; ++round) cache.fill_round({});
+    double sum = 0;
+    int found = 0;
+    constexpr int side = 16;
+    for (int i = 0; i < side * side; ++i) {
+      Sampler numbers = Sampler::at(0, 0, Stream::camera, uint64_t(i), 0);
+      SampleSink nowhere{ComponentSet()};
+      CameraWalk walk(scene, Vec2f(float(i % side) + 0.5f, float(i / side) + 0.5f) * 4, numbers,
+                      nowhere);
+      Spectrum radiance;
+      EXPECT_TRUE(walk.advance() && IndirectCache::is_for(walk));
+      EXPECT_EQ(cache.serves(walk), cache.reflected(walk, radiance));
+      if (!cache.serves(walk)) continue;
+      sum += double(radiance[0]);
+      ++found;
+    }
+    result.share += double(found) / (side * side) / passes;
+    if (found > 0) result.radiance.add(sum / found);
+  }
+  return result;
+}
+
+TEST(IndirectCache, HasTheLightOfAFurnace) {
+  const TestScene scene = matt_furnace();
+  const Served served = served_by(scene.scene(), 1 << 20, slow_build ? 8 : 64);
+  EXPECT_GT(served.share, 0.9);
+  const double expected = furnace_albedo * furnace_albedo / (1 - furnace_albedo);
+  EXPECT_NEAR(served.radiance.mean(), expected,
+              4 * served.radiance.standard_error() + 0.002 * expected);
+  EXPECT_LT(served.radiance.standard_error(), 0.01 * expected);
+}
+
+/// Of one event more than direct light, of two.
+TEST(IndirectCache, CountsEvents) {
+  const TestScene scene = matt_furnace();
+  for (const int most : {1, 2, 3}) {
+    const Served served = served_by(scene.scene(), most, slow_build ? 8 : 32);
+    double expected = 0;
+    for (int events = 2; events <= most; ++events) expected += std::pow(furnace_albedo, events);
+    EXPECT_NEAR(served.radiance.mean(), expected, 4 * served.radiance.standard_error() + 1e-3)
+        << most;
+  }
+}
+
+TEST(IndirectCache, IsForMattSurfacesThatTheCameraSees) {
+  const auto is_for = [](const std::string& bsdf) {
+    const TestScene scene(camera("0, 0, 2", "0, 0, 0", 30, 8, "0, 1, 0") +
+                          flat("rectangle", "", bsdf));
+    Sampler numbers = Sampler::at(0, 0, Stream::camera, 0, 0);
+    SampleSink nowhere{ComponentSet()};
+    CameraWalk walk(scene.scene(), {4, 4}, numbers, nowhere);
+    EXPECT_TRUE(walk.advance());
+    return IndirectCache::is_for(walk);
+  };
+  EXPECT_TRUE(is_for(diffuse("0.5, 0.5, 0.5")));
+  EXPECT_TRUE(is_for(phong(0.4, 0.3, 20)));
+  EXPECT_FALSE(is_for(mirror()));
+  EXPECT_FALSE(is_for(glass()));
+}
+
+}  // namespace
+}  // namespace kaustik
