@@ -208,9 +208,9 @@ TEST_F(Cloud, EveryMethodAgreesLong) {
   for (const std::string type : {"bdpt", "vcm", "ppm", "auto", "photonmap"}) {
     const Passes found =
         render(scene, type,
-               type == "photonmap" ? set("volume_photons", 40'000) + set("volume_neighbors", 20)
+               type == "photonmap" ? set("volume_photons", 200'000) + set("volume_neighbors", 20)
                                    : std::string(),
-               {type == "photonmap" ? 700.0 : 600.0});
+               {type == "photonmap" ? 180.0 : 600.0});
     for (const int channel : {0, 2})
       expect_near_means(
           fmt::format("{}, cloud, volume {}", type, "RGB"[channel]),
