@@ -27,8 +27,12 @@ struct Served {
 Served served_by(const Scene& scene, int maximum_events, uint32_t passes) {
   Served result;
   const LightVertices no_light;
+  const SidedTree<LightVertexData> nothing_focused;
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    IndirectCache cache({.scene = scene, .light = no_light, .maximum_events = maximum_events},
+    IndirectCache cache({.scene = scene,
+                         .light = no_light,
+                         .focused = nothing_focused,
+                         .maximum_events = maximum_events},
                         {0, pass, 1});
     for (int round = 0; round < IndirectCache::most_rounds; ++round) cache.fill_round({});
     double sum = 0;

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/base/stored_spectrum.h"
@@ -120,5 +121,9 @@ struct LightVertices {
     return vertices[size_t(data.path) + data.before];
   }
 };
+
+/// Those that light has come to by specular events alone: what only light paths find.
+SidedTree<LightVertexData> focused_vertices(const LightVertices& light,
+                                            const std::stop_token& stop = {});
 
 }  // namespace kaustik

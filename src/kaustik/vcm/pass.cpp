@@ -68,19 +68,23 @@ void VcmPass::trace_light(const LightPathAims& aims, SplatBuffer& splats, std::s
        .gauges = gauges_.empty() ? nullptr : &gauges_},
       pass_, Stream::light_path, splats, stop, progress, report);
   if (plans_->techniques.merging) matt_ = MattMerging(light_, weights_, stop);
-  if (plans_->cache_rounds > 0 && aims.cache && !stop.stop_requested()) fill_cache(stop, report);
+  if (plans_->cache.rounds > 0 && aims.cache && !stop.stop_requested()) fill_cache(stop, report);
   connection_scale_ = float(double(light_.connectible.size()) /
                             (double(settings_.connections) * double(light_.connectible_paths())));
 }
 
 void VcmPass::fill_cache(const std::stop_token& stop, PassReport& report) {
+  focused_ = focused_vertices(light_, stop);
+  focused_matt_ = MattMerging(light_, focused_, weights_, stop);
   cache_ = std::make_unique<IndirectCache>(
       GatherInputs{.scene = scene_,
                    .light = light_,
+                   .focused = focused_,
                    .merge_radius_sq = weights_.settings().merge_area * inv_pi,
-                   .maximum_events = settings_.maximum_events},
-      pass_);
-  for (int round = 0; round < plans_->cache_rounds && !stop.stop_requested(); ++round)
+                   .maximum_events = settings_.maximum_events,
+                   .shrinkage = shrinkage_},
+      pass_, plans_->cache.gather_rays, stop);
+  for (int round = 0; round < plans_->cache.rounds && !stop.stop_requested(); ++round)
     cache_->fill_round(stop);
   report.rays += cache_->rays();
   if (cache_->rays_dropped() > 0 && !stop.stop_requested())
@@ -95,6 +99,7 @@ void VcmPass::sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) co
                      .weights = weights_,
                      .light = light_,
                      .matt = matt_,
+                     .focused_matt = cache_ ? &focused_matt_ : nullptr,
                      .seen = plans_->pixels.seen(),
                      // On average: what all weights go by, so those of all ways of finding a path
                      // still sum to 1 where a pixel gets more or fewer.

@@ -16,6 +16,8 @@ struct CameraPathInputs {
   const PathWeights& weights;
   const LightVertices& light;
   const MattMerging& matt;
+  /// Of focused_vertices() alone, for where nothing else merges; null: `matt` tells them apart.
+  const MattMerging* focused_matt = nullptr;
   const SeenSurfaces& seen;
   float camera_samples = 1;    ///< per pixel
   float connection_scale = 0;  ///< of a connected vertex: vertices over paths and connections

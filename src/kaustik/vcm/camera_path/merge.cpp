@@ -32,6 +32,10 @@ void SurfaceMerging::merge() {
   if (!wanted(Lobes::diffuse) && !wanted(Lobes::glossy)) return;
   const float widest = vertices_.merge_radius();
   if (!(widest > 0)) return;
+  const bool is_matt = vertices_.is_at_first() && vertex.is_matt();
+  if (is_matt && in_.focused_matt && is_only_focused_wanted() &&
+      !in_.focused_matt->may_merge(vertex.position(), widest))
+    return;
   const DiskCoverage covered(in_.scene, MergeDisk(vertex, widest), walk_.rays(),
                              disk_bounds(widest).clear_flatness);
   const float radius = std::min(widest, std::max(covered.clear_radius(), walk_.footprint().width));
@@ -39,7 +43,6 @@ void SurfaceMerging::merge() {
   const MergeDisk disk = bounds.are_clear() ? MergeDisk(vertex, radius, bounds.clear_flatness)
                                             : MergeDisk(vertex, radius);
   const DiskWeights weights = disk_weights(disk, bounds);
-  const bool is_matt = vertices_.is_at_first() && vertex.is_matt();
   const bool is_all_reached = bounds.are_clear() || !in_.visibility;
   MergedLight light;
   if (is_matt)
@@ -150,13 +153,13 @@ SurfaceMerging::MergedLight SurfaceMerging::reached_matt(const MergeDisk& disk,
   for (const auto kind : {MattMerging::other, MattMerging::after_specular}) {
     const bool specular = kind == MattMerging::after_specular;
     if (auto& draw = draws[size_t(walk_.component_of(Lobes::diffuse, specular))])
-      in_.matt.offer(*each, kind, reflected, *draw);
+      matt_merging().offer(*each, kind, reflected, *draw);
   }
   leave_drawn(
       draws,
       [&](size_t number) {
         return covered.reaches(disk.radius(),
-                               in_.matt.position(uint32_t(number)) - vertex.position());
+                               matt_merging().position(uint32_t(number)) - vertex.position());
       },
       light);
   return light;
@@ -205,21 +208,21 @@ SurfaceMerging::MergedLight SurfaceMerging::merged_matt(
     const MergeDisk& disk, const DiskWeights& weights,
     std::vector<MattMerging::Factors>* each) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const MattLight light = in_.matt.merge(
-      {.center = vertex.position(),
-       .normal = disk.side(),
-       .radius = disk.radius(),
-       .flatness = disk.flatness(),
-       .least_cosine = disk.least_cosine(),
-       .most_before = in_.maximum_events - walk_.events(),
-       .edges = weights.bounds.edges,
-       .slope = weights.wide.slope,
-       .narrow_slope = weights.narrow.slope,
-       .weights = in_.weights.matt_vertex(vertices_.list(),
-                                          vertices_.plan().counted_area(in_.camera_samples),
-                                          vertices_.plan().counted_survival()),
-       .only_after_specular = !walk_.wants(walk_.component_of(Lobes::diffuse, false))},
-      each);
+  const MattLight light =
+      matt_merging().merge({.center = vertex.position(),
+                            .normal = disk.side(),
+                            .radius = disk.radius(),
+                            .flatness = disk.flatness(),
+                            .least_cosine = disk.least_cosine(),
+                            .most_before = in_.maximum_events - walk_.events(),
+                            .edges = weights.bounds.edges,
+                            .slope = weights.wide.slope,
+                            .narrow_slope = weights.narrow.slope,
+                            .weights = in_.weights.matt_vertex(
+                                vertices_.list(), vertices_.plan().counted_area(in_.camera_samples),
+                                vertices_.plan().counted_survival()),
+                            .only_after_specular = is_only_focused_wanted()},
+                           each);
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {

@@ -52,6 +52,14 @@ class SurfaceMerging {
     DiskBounds bounds;
     DiskKernel wide, narrow;
   };
+  /// Whether of the light that the diffuse lobe reflects only what came by specular events counts.
+  bool is_only_focused_wanted() const {
+    return !walk_.wants(walk_.component_of(Lobes::diffuse, false));
+  }
+  /// What has the light vertices that merge at a matt vertex.
+  const MattMerging& matt_merging() const {
+    return in_.focused_matt && is_only_focused_wanted() ? *in_.focused_matt : in_.matt;
+  }
   /// Of a disk around the vertex.
   DiskBounds disk_bounds(float radius) const;
   DiskWeights disk_weights(const MergeDisk& disk, const DiskBounds& bounds) const;

@@ -15,7 +15,18 @@ constexpr int roulette_depth = 2;
 /// Light vertices that tell from where light comes to a record.
 constexpr int importance_vertices = 50;
 
+Vec3f side_of(const SurfaceVertex& vertex) {
+  return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
+}
+
 }  // namespace
+
+GatheredLight::GatheredLight(const GatherInputs& inputs, const std::stop_token& stop)
+    : in_(inputs) {
+  // What is looked up has any number of events before.
+  if (in_.maximum_events >= GatherInputs::any_events)
+    scattered_ = ScatteredLight(in_.light, in_.shrinkage, stop);
+}
 
 Spectrum GatheredLight::direct_light(const SurfaceVertex& vertex, const PathState& state,
                                      Sampler& sampler, uint64_t& rays) const {
@@ -31,29 +42,29 @@ Spectrum GatheredLight::direct_light(const SurfaceVertex& vertex, const PathStat
 }
 
 Spectrum GatheredLight::focused_light(const SurfaceVertex& vertex, int events) const {
-  const SidedTree<LightVertexData>& tree = in_.light.tree;
-  if (tree.empty() || !(in_.merge_radius_sq > 0)) return {};
+  if (in_.focused.empty() || !(in_.merge_radius_sq > 0)) return {};
   const MergeDisk disk(vertex, std::sqrt(in_.merge_radius_sq));
   const bool both_sides = disk.both_sides();
   Spectrum sum;
-  tree.within(vertex.position(), both_sides ? vertex.point().ng : disk.side(), both_sides,
-              in_.merge_radius_sq, [&](uint32_t index, float) {
-                const LightVertexData& data = tree.tree().data(index);
-                if (!data.specular || events + int(data.before) > in_.maximum_events) return;
-                const float share =
-                    disk.share(tree.tree().key(index) - vertex.position(), data.side);
-                if (!(share > 0)) return;
-                const Vec3f wi = data.direction.unpack();
-                const float factor = vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f;
-                sum += vertex.eval(wi, Lobes::diffuse) * data.flux.spectrum() * (share * factor);
-              });
+  in_.focused.within(
+      vertex.position(), both_sides ? vertex.point().ng : disk.side(), both_sides,
+      in_.merge_radius_sq, [&](uint32_t index, float) {
+        const LightVertexData& data = in_.focused.tree().data(index);
+        if (events + int(data.before) > in_.maximum_events) return;
+        const float share =
+            disk.share(in_.focused.tree().key(index) - vertex.position(), data.side);
+        if (!(share > 0)) return;
+        const Vec3f wi = data.direction.unpack();
+        const float factor = vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f;
+        sum += vertex.eval(wi, Lobes::diffuse) * data.flux.spectrum() * (share * factor);
+      });
   return sum * (1 / (pi * in_.merge_radius_sq * float(in_.light.path_count)));
 }
 
 RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
                                                          const SurfacePoint& from,
                                                          const Vec3f& direction, Sampler& sampler,
-                                                         Scratch&) const {
+                                                         Scratch& scratch) const {
   Incoming result;
   PathState state;
   state.wavelengths = in_.light.wavelengths;
@@ -61,13 +72,14 @@ RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
   state.footprint.scatter(Lobes::diffuse, 0.5f * inv_pi);
   Ray ray = spawn_ray(from, direction);
   SurfaceVertex vertex;
-  float distance = 0;
+  float distance = 0, hit_distance = 0;
   uint64_t rays = 0;
   const auto go_on = [&](const Hit& hit, bool found) {
     if (state.medium)
       state.throughput *= state.medium->transmittance({ray.origin, ray.direction, hit.t},
                                                       state.wavelengths, sampler);
     distance += hit.t;
+    hit_distance = hit.t;
     return found;
   };
   while (travel(in_.scene, state, ray, vertex, rays, go_on)) {
@@ -75,13 +87,21 @@ RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
     sampler.start_vertex(uint32_t(state.depth));
     // That of the surface that gathers, and the one here.
     if (state.depth + 2 > in_.maximum_events) break;
+    Lobes traced = vertex.lobes();
     if (any(vertex.lobes() & Lobes::diffuse)) {
       Spectrum sent = direct_light(vertex, state, sampler, rays);
       sent += focused_light(vertex, state.depth + 1);
+      Spectrum irradiance;
+      if (!vertex.transmits() && scattered_.lookup(vertex.position(), side_of(vertex), hit_distance,
+                                                   scratch, irradiance)) {
+        sent += vertex.diffuse_value() * irradiance;
+        traced = traced & Lobes::specular;
+      }
       result.radiance += state.throughput * sent;
     }
+    if (!any(traced)) break;
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
-    const BsdfSample sample = vertex.sample(u_choice.x, u, Lobes::all);
+    const BsdfSample sample = vertex.sample(u_choice.x, u, traced);
     if (sample.event == Lobes::none || sample.weight.is_zero()) break;
     state.throughput *= sample.weight;
     state.roulette_scale *= sqr(sample.eta);

@@ -2,7 +2,7 @@
 #include <atomic>
 
 #include "kaustik/irradiance/hemisphere.h"
-#include "kaustik/vcm/light_vertices.h"
+#include "kaustik/vcm/gathering/scattered_light.h"
 
 namespace kaustik {
 
@@ -10,19 +10,24 @@ namespace kaustik {
 struct GatherInputs {
   const Scene& scene;
   const LightVertices& light;
-  float merge_radius_sq = 0;  ///< of focused light at the ends of gather rays, m²
-  int maximum_events = 1 << 20;
+  const SidedTree<LightVertexData>& focused;  ///< focused_vertices() of it
+  float merge_radius_sq = 0;                  ///< of focused light at the ends of gather rays, m²
+  int maximum_events = any_events;
+  float shrinkage = 1;  ///< of the areas of disks since the first pass
+
+  static constexpr int any_events = 1 << 20;
 };
 
 /// Light that has been scattered diffusely before it arrives at a surface, along a ray: that which
-/// the diffuse lobe of what the ray meets sends back. The ray goes on from there as a path of path
-/// tracing does: at each vertex direct light is sampled for the diffuse lobe, and focused light,
-/// which only light paths find, merges in a disk. Lamps that paths meet do not count: these two
-/// have found all of their light. Knows no light that media scatter.
+/// the diffuse lobe of what the ray meets sends back. There direct light is sampled, focused light,
+/// which only light paths find, merges in a disk, and light that was scattered before is looked up.
+/// Where that is not known well enough, and by other lobes, the ray goes on as a path of path
+/// tracing does. Lamps that paths meet do not count: direct and focused light are all that they
+/// bring. Knows no light that media scatter.
 class GatheredLight final : public RadianceSource {
  public:
   /// What `inputs` refer to must outlive this.
-  explicit GatheredLight(const GatherInputs& inputs) : in_(inputs) {}
+  explicit GatheredLight(const GatherInputs& inputs, const std::stop_token& stop = {});
 
   Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
                     Sampler& sampler) const override {
@@ -43,6 +48,7 @@ class GatheredLight final : public RadianceSource {
   Spectrum focused_light(const SurfaceVertex& vertex, int events) const;
 
   GatherInputs in_;
+  ScatteredLight scattered_;               ///< empty: it is not looked up
   mutable std::atomic<uint64_t> rays_{0};  ///< a count alone; changes no result
 };
 

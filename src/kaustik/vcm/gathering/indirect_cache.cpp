@@ -17,13 +17,13 @@ constexpr float first_quality = 0.25f, first_minimum_spacing = 3, first_maximum_
 /// would have other, coarser noise.
 constexpr float allowed_error = 1.4f;
 
-CacheSettings settings_of(const Pass& pass, int samples) {
+CacheSettings settings_of(const Pass& pass, int gather_rays) {
   CacheSettings settings;
   const float shrinkage = pass_radius(1, pass.stage());
   settings.quality = first_quality * shrinkage;
   settings.minimum_spacing = first_minimum_spacing * shrinkage;
   settings.maximum_spacing = first_maximum_spacing * shrinkage;
-  settings.hemisphere.samples = samples;
+  settings.hemisphere.samples = gather_rays;
   return settings;
 }
 
@@ -36,8 +36,9 @@ CachePoint cache_point_of(const CameraWalk& walk) {
 
 }  // namespace
 
-IndirectCache::IndirectCache(const GatherInputs& inputs, const Pass& pass, int samples)
-    : in_(inputs), pass_(pass), light_(inputs), cache_(settings_of(pass, samples)) {}
+IndirectCache::IndirectCache(const GatherInputs& inputs, const Pass& pass, int gather_rays,
+                             const std::stop_token& stop)
+    : in_(inputs), pass_(pass), light_(inputs, stop), cache_(settings_of(pass, gather_rays)) {}
 
 void IndirectCache::fill_round(const std::stop_token& stop) {
   const std::vector<CachePoint> points = points_of_round(strides[round_], stop);

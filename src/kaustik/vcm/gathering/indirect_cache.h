@@ -5,6 +5,12 @@
 
 namespace kaustik {
 
+/// How each pass fills its cache.
+struct CachePlan {
+  int rounds = 0;         ///< from coarse to fine; 0: there is none
+  int gather_rays = 128;  ///< of a record
+};
+
 /// Diffuse indirect light of a pass where the camera sees matt surfaces: gathered at records, and
 /// interpolated between them where it is smooth. Elsewhere it has none, and other techniques have
 /// to find that light. Where it has it, it has all of it.
@@ -12,12 +18,13 @@ class IndirectCache {
  public:
   /// Rounds in which it is filled, from coarse to fine. Finer ones find little that is smooth.
   static constexpr int most_rounds = 2;
-  /// Gather rays of a record.
-  static constexpr int usual_samples = 128;
+  /// Gather rays of a record that there are at least, and at most.
+  static constexpr int least_gather_rays = 64, most_gather_rays = 512;
 
   /// Empty. What `inputs` refer to must outlive it. All lengths shrink as radii do, by the stage of
-  /// `pass`.
-  IndirectCache(const GatherInputs& inputs, const Pass& pass, int samples = usual_samples);
+  /// `pass`. Records have so many gather rays.
+  IndirectCache(const GatherInputs& inputs, const Pass& pass, int gather_rays,
+                const std::stop_token& stop = {});
 
   /// The next of its rounds. Worth nothing if it was stopped. Not while others ask.
   void fill_round(const std::stop_token& stop);

@@ -238,9 +238,9 @@ PathWeights::MattMerge matt_merge(const LightVertices& light, const LightVertexD
   return weights.matt_merge(path);
 }
 
-void fill_block(const LightVertices& light, const PathWeights& weights, size_t begin,
-                MattMerging::Block& block) {
-  const auto& tree = light.tree.tree();
+void fill_block(const LightVertices& light, const SidedTree<LightVertexData>& vertices,
+                const PathWeights& weights, size_t begin, MattMerging::Block& block) {
+  const auto& tree = vertices.tree();
   const size_t count = std::min(MattMerging::Block::size, tree.size() - begin);
   block = MattMerging::Block();
   block.same_side = true;
@@ -265,15 +265,15 @@ void fill_block(const LightVertices& light, const PathWeights& weights, size_t b
 
 }  // namespace
 
-MattMerging::MattMerging(const LightVertices& light, const PathWeights& weights,
-                         const std::stop_token& stop)
-    : buckets_(&light.tree.tree().buckets()) {
+MattMerging::MattMerging(const LightVertices& light, const SidedTree<LightVertexData>& vertices,
+                         const PathWeights& weights, const std::stop_token& stop)
+    : buckets_(&vertices.tree().buckets()) {
   const size_t count = buckets_->bucket_count();
   if (count == 0 || stop.stop_requested()) return;
   auto blocks = std::make_unique_for_overwrite<Block[]>(count);
   parallel_blocks(count, 64, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
-      fill_block(light, weights, i * Block::size, blocks[i]);
+      fill_block(light, vertices, weights, i * Block::size, blocks[i]);
   });
   if (!stop.stop_requested()) blocks_ = std::move(blocks);
 }
@@ -281,6 +281,16 @@ MattMerging::MattMerging(const LightVertices& light, const PathWeights& weights,
 MattLight MattMerging::merge(const MattDisk& disk, std::vector<Factors>* each) const {
   if (!blocks_) return {};
   return HWY_DYNAMIC_DISPATCH(Merge)(*buckets_, blocks_.get(), disk, each);
+}
+
+bool MattMerging::may_merge(const Vec3f& center, float radius) const {
+  if (!blocks_) return false;
+  bool found = false;
+  const auto take = [](void* context, const uint32_t*, size_t count) {
+    if (count > 0) *static_cast<bool*>(context) = true;
+  };
+  buckets_->overlapping(center, sqr(radius), {take, &found});
+  return found;
 }
 
 void MattMerging::offer(const std::vector<Factors>& each, Kind kind, const Spectrum& reflected,

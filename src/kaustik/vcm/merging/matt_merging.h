@@ -47,9 +47,14 @@ struct MattLight {
 class MattMerging {
  public:
   MattMerging() = default;
-  /// `light` must outlive this. Where `stop` is requested nothing will be merged.
+  /// Of the vertices that may be merged. `light` must outlive this. Where `stop` is requested
+  /// nothing will be merged.
   MattMerging(const LightVertices& light, const PathWeights& weights,
-              const std::stop_token& stop = {});
+              const std::stop_token& stop = {})
+      : MattMerging(light, light.tree, weights, stop) {}
+  /// Of some of them, `vertices`, which must outlive this, too.
+  MattMerging(const LightVertices& light, const SidedTree<LightVertexData>& vertices,
+              const PathWeights& weights, const std::stop_token& stop = {});
 
   /// Light that came by specular events only, and the rest.
   enum Kind { other, after_specular };
@@ -66,6 +71,8 @@ class MattMerging {
   /// factor times `reflected`. Of a disk without slopes.
   void offer(const std::vector<Factors>& each, Kind kind, const Spectrum& reflected,
              LaneDraw& draw) const;
+  /// Whether anything may be within the disk.
+  bool may_merge(const Vec3f& center, float radius) const;
   Vec3f position(uint32_t number) const { return buckets_->position(number); }
 
   /// Of 16 vertices, those of one bucket of the tree. Without initialisers, so that whoever fills

@@ -30,13 +30,7 @@ bool has_found_nothing(const ProbeStatistics& probe) {
          std::all_of(probe.squares.begin(), probe.squares.end(), [](double s) { return s == 0; });
 }
 
-struct Candidate {
-  double squared_error = 0, rays = 0, evenness = 1;
-  double survival = 1;
-  int light_samples = 1;
-};
-
-/// What may be chosen at a probe: by number, each chance with each number of lights.
+/// What may be chosen at a probe: a chance, and a number of lights.
 struct Candidates {
   // By chance: relative squared error of all other light.
   std::array<double, chances.size()> squared_error{}, evenness{};
@@ -44,20 +38,21 @@ struct Candidates {
   // and what n samples divide by n.
   double constant = 0, light_sample = 0;
   double rays = 0, rays_beyond = 0, light_sample_rays = 0;
-
-  static constexpr size_t number(size_t chance, size_t samples) {
-    return chance * light_counts.size() + samples;
-  }
-  Candidate at(size_t number) const {
-    const size_t chance = number / light_counts.size();
-    const int samples = light_counts[number % light_counts.size()];
-    return {.squared_error = squared_error[chance] + constant - light_sample * (1 - 1.0 / samples),
-            .rays = rays + chances[chance] * rays_beyond + (samples - 1) * light_sample_rays,
-            .evenness = evenness[chance],
-            .survival = chances[chance],
-            .light_samples = samples};
-  }
 };
+
+/// A pair of them, by its places in `chances` and `light_counts`.
+struct Chosen {
+  uint8_t chance = 0, lights = 0;
+};
+
+double squared_error(const Candidates& of, const Chosen& chosen) {
+  return of.squared_error[chosen.chance] + of.constant -
+         of.light_sample * (1 - 1.0 / light_counts[chosen.lights]);
+}
+double rays(const Candidates& of, const Chosen& chosen) {
+  return of.rays + chances[chosen.chance] * of.rays_beyond +
+         (light_counts[chosen.lights] - 1) * of.light_sample_rays;
+}
 
 double evenness_at(const ProbeStatistics& probe, double chance) {
   if (!(probe.path_mean_square > 0)) return 1;
@@ -68,9 +63,11 @@ double evenness_at(const ProbeStatistics& probe, double chance) {
 double variance(const ProbeStatistics& probe, double kappa, const MergeScale& scale) {
   const double nu = scale.area * scale.light_paths;
   double sum = probe.merged_alone > 0 ? probe.merged_alone / nu : 0.0;
-  for (int i = 0; i < ProbeStatistics::bin_count; ++i)
-    sum += probe.squares[size_t(i)] /
-           (kappa + nu * std::exp2(double(i - ProbeStatistics::bin_of_one)));
+  double merging = nu * std::ldexp(1.0, -ProbeStatistics::bin_of_one);
+  for (const double squares : probe.squares) {
+    sum += squares / (kappa + merging);
+    merging *= 2;
+  }
   return sum;
 }
 
@@ -127,14 +124,12 @@ double rays_of_light_paths(const PassCosts& costs, const std::vector<MergeScale>
   return cost_model.light_ray * costs.light_rays * light_paths;
 }
 
-/// Where each probe has the candidate that is chosen.
-Efficiency expected(const std::vector<Candidates>& all, const std::vector<size_t>& chosen,
+Efficiency expected(const std::vector<Candidates>& all, const std::vector<Chosen>& chosen,
                     const PassCosts& costs, const std::vector<MergeScale>& scales) {
   Efficiency total;
   for (size_t p = 0; p < all.size(); ++p) {
-    const Candidate candidate = all[p].at(chosen[p]);
-    total.squared_error += candidate.squared_error;
-    total.rays += candidate.rays;
+    total.squared_error += squared_error(all[p], chosen[p]);
+    total.rays += rays(all[p], chosen[p]);
   }
   total.squared_error /= double(all.size());
   total.rays /= double(all.size());
@@ -142,37 +137,48 @@ Efficiency expected(const std::vector<Candidates>& all, const std::vector<size_t
   return total;
 }
 
-/// A candidate of each probe, and what is expected of all.
+/// What is chosen at each probe, and what is expected of all.
 struct Choice {
-  std::vector<size_t> chosen;
+  std::vector<Chosen> chosen;
   Efficiency expected;
 };
 
-/// From `chosen` on, by turns: the least product of two sums is the least weighted sum, by weights
-/// that follow from the sums. That may end where no small change is better.
-Choice improved(const std::vector<Candidates>& all, std::vector<size_t> chosen,
-                const PassCosts& costs, const std::vector<MergeScale>& scales,
-                const PlanChoices& choices) {
-  const size_t chance_count = choices.survival ? chances.size() : 1;
-  const size_t sample_count = choices.light_samples ? light_counts.size() : 1;
+/// The number below `count` whose time is least, the first of several.
+template <typename Time>
+uint8_t least_of(size_t count, const Time& time) {
+  double least = std::numeric_limits<double>::infinity();
+  size_t best = 0;
+  for (size_t i = 0; i < count; ++i)
+    if (const double of = time(i); of < least) {
+      least = of;
+      best = i;
+    }
+  return uint8_t(best);
+}
+
+/// The pair that adds least to the time. Chance and lights add to it independently.
+Chosen least_time(const Candidates& of, const Efficiency& total, const PlanChoices& choices) {
+  return {.chance = least_of(choices.survival ? chances.size() : 1,
+                             [&](size_t i) {
+                               return of.squared_error[i] * total.rays +
+                                      chances[i] * of.rays_beyond * total.squared_error;
+                             }),
+          .lights = least_of(choices.light_samples ? light_counts.size() : 1, [&](size_t i) {
+            return of.light_sample / light_counts[i] * total.rays +
+                   light_counts[i] * of.light_sample_rays * total.squared_error;
+          })};
+}
+
+/// From `begin` at every probe on, by turns: the least product of two sums is the least weighted
+/// sum, by weights that follow from the sums. That may end where no small change is better.
+Choice improved(const std::vector<Candidates>& all, const Chosen& begin, const PassCosts& costs,
+                const std::vector<MergeScale>& scales, const PlanChoices& choices) {
+  std::vector<Chosen> chosen(all.size(), begin);
   for (int round = 0;; ++round) {
     const Efficiency total = expected(all, chosen, costs, scales);
     if (round == rounds) return {std::move(chosen), total};
-    parallel_blocks(all.size(), probes_at_a_time, [&](size_t begin, size_t end, size_t) {
-      for (size_t p = begin; p < end; ++p) {
-        double least = std::numeric_limits<double>::infinity();
-        chosen[p] = 0;
-        for (size_t i = 0; i < chance_count; ++i)
-          for (size_t k = 0; k < sample_count; ++k) {
-            const size_t number = Candidates::number(i, k);
-            const Candidate candidate = all[p].at(number);
-            const double time =
-                candidate.squared_error * total.rays + candidate.rays * total.squared_error;
-            if (!(time < least)) continue;
-            least = time;
-            chosen[p] = number;
-          }
-      }
+    parallel_blocks(all.size(), probes_at_a_time, [&](size_t from, size_t end, size_t) {
+      for (size_t p = from; p < end; ++p) chosen[p] = least_time(all[p], total, choices);
     });
   }
 }
@@ -196,6 +202,7 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   ungathered.merged_alone += weight * other.ungathered.merged_alone;
   ungathered.path_mean_square += weight * other.ungathered.path_mean_square;
   ungathered.path_variance += weight * other.ungathered.path_variance;
+  ungathered.merged += weight * other.ungathered.merged;
   gather_variance += weight * other.gather_variance;
   cache_share += weight * other.cache_share;
   cache_variance += weight * other.cache_variance;
@@ -207,9 +214,10 @@ ProbeStatistics ProbeStatistics::with_cache(int gather_rays) const {
   rest.merged_alone = ungathered.merged_alone;
   rest.path_mean_square = ungathered.path_mean_square;
   rest.path_variance = ungathered.path_variance;
-  constexpr double worth = 2;
+  rest.merged = ungathered.merged;
+  constexpr double worth = 2, correlation = 2;
   rest.cache_share = 1;
-  rest.cache_variance = gather_variance / (worth * gather_rays);
+  rest.cache_variance = correlation * gather_variance / (worth * gather_rays);
   return rest;
 }
 
@@ -226,20 +234,19 @@ Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCo
                         std::vector<PixelPlan>& plans) {
   if (probes.empty()) return {};
   const std::vector<Candidates> all = candidates_of(probes, costs, scales, choices);
-  const auto from = [&](size_t samples) {
+  const auto from = [&](size_t lights) {
     const size_t chance = choices.survival ? chances.size() / 2 : 0;
-    return improved(all, std::vector<size_t>(all.size(), Candidates::number(chance, samples)),
-                    costs, scales, choices);
+    return improved(all, {uint8_t(chance), uint8_t(lights)}, costs, scales, choices);
   };
   Choice best = from(0);
   if (choices.light_samples)
     if (Choice other = from(light_counts.size() - 1); other.expected.time() < best.expected.time())
       best = std::move(other);
   for (size_t p = 0; p < all.size(); ++p) {
-    const Candidate of_probe = all[p].at(best.chosen[p]);
-    plans[p].survival = float(of_probe.survival);
-    plans[p].evenness = float(of_probe.evenness);
-    plans[p].light_samples = of_probe.light_samples;
+    const auto [chance, lights] = best.chosen[p];
+    plans[p].survival = float(chances[chance]);
+    plans[p].evenness = float(all[p].evenness[chance]);
+    plans[p].light_samples = light_counts[lights];
   }
   return best.expected;
 }

@@ -30,17 +30,21 @@ struct ProbeStatistics {
   double rays_beyond = 0;  ///< … and of a path that goes on there
   double light_sample_rays = 0;  ///< of a sample of a light at the vertex; one is in `rays`
 
-  /// `squares` … `path_variance` without diffuse indirect light, where a cache may have it …
+  /// `squares` … `path_variance` and `merged` without diffuse indirect light, where a cache may
+  /// have it …
   struct Ungathered {
     std::array<double, bin_count> squares{};
-    double merged_alone = 0, path_mean_square = 0, path_variance = 0;
+    double merged_alone = 0, path_mean_square = 0, path_variance = 0, merged = 0;
   } ungathered;
   /// … and the variance of that light by one gather ray.
   double gather_variance = 0;
   double cache_share = 0;     ///< 1 where a cache has that light, …
   double cache_variance = 0;  ///< … which then has this variance in a pass
-  /// What is left where records of a cache have found that light by so many gather rays each. These
-  /// are worth twice as many: they stratify one another, and several records are interpolated.
+  /// What is left where records of a cache have found that light by so many gather rays each. They
+  /// stratify one another, and several records are interpolated, which halves the variance. But
+  /// pixels side by side then err alike: errors count as they are after filters of 1, 3 and 9
+  /// pixels, which leave a half of such noise where they take almost all of other noise, so it
+  /// counts twice.
   ProbeStatistics with_cache(int gather_rays) const;
 
   void add(const ProbeStatistics& other, double weight);

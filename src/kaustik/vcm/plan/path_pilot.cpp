@@ -130,6 +130,7 @@ void add_merged(CameraPath& path, float samples, double light_share, ProbeStatis
     const double light = double(spectrum.sum());
     const double rest = is_for_cache ? light - double(indirect.sum()) : light;
     result.merged += 1 / light_share;
+    if (!is_for_cache || rest != 0) result.ungathered.merged += 1 / light_share;
     if (light == 0) continue;
     // Of each of the vertices that a real pass has in place of this one.
     const double squares = light * light * light_share;

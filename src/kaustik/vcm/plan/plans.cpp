@@ -44,7 +44,9 @@ constexpr double worth_fewer = 1.25;
 /// The bias of a cache is not counted either.
 constexpr double worth_caching = 1.25;
 /// Gather rays of a record in a trial.
-constexpr int trial_samples = 64;
+constexpr int trial_rays = 32;
+/// Probes by which plans are compared, at least, where there are so many.
+constexpr size_t compared_probes = 1 << 12;
 constexpr float near_per_distance = 0.01746f;  // tan 1°
 
 /// Whether there is a vertex that light of a point, or of something else that is never met, has
@@ -80,6 +82,15 @@ bool is_merging_wanted(ComponentSet components) {
          components.has(Component::specular) || components.has(Component::volume);
 }
 
+/// The first of `all` and every `step`th after it.
+template <typename T>
+std::vector<T> every(size_t step, const std::vector<T>& all) {
+  std::vector<T> result;
+  result.reserve((all.size() + step - 1) / step);
+  for (size_t i = 0; i < all.size(); i += step) result.push_back(all[i]);
+  return result;
+}
+
 template <typename Value>
 double mean_of(const std::vector<PixelPlan>& plans, const Value& value) {
   double sum = 0;
@@ -113,6 +124,21 @@ std::vector<int> rounds_to_choose_from(const VcmPlans& plans) {
   return result;
 }
 
+/// As many gather rays of a record as pay.
+void choose_gather_rays(VcmPlans& plans) {
+  if (plans.cache.rounds == 0) return;
+  VcmPlans other = plans;
+  double least = std::numeric_limits<double>::infinity();
+  for (int rays = IndirectCache::least_gather_rays; rays <= IndirectCache::most_gather_rays;
+       rays *= 2) {
+    other.cache.gather_rays = rays;
+    const double time = other.expected(plans.pixels.plans(), 1).time();
+    if (!(time < least)) continue;
+    least = time;
+    plans.cache.gather_rays = rays;
+  }
+}
+
 /// Settles the plans with a cache if that pays.
 void settle_with_cache(VcmPlans& plans) {
   const std::vector<PixelPlan> disks = plans.pixels.plans();
@@ -120,13 +146,15 @@ void settle_with_cache(VcmPlans& plans) {
   double least = 0;
   for (const int rounds : rounds_to_choose_from(plans)) {
     VcmPlans other = plans;
-    other.cache_rounds = rounds;
-    const double time = other.settle(disks, 1).time() * (rounds > 0 ? worth_caching : 1);
+    other.cache.rounds = rounds;
+    const double time = other.expected(disks, 1).time() * (rounds > 0 ? worth_caching : 1);
     if (best && !(time < least)) continue;
     least = time;
     best = std::move(other);
   }
   plans = std::move(*best);
+  choose_gather_rays(plans);
+  plans.settle(disks, 1);
 }
 
 /// The same with as many light paths as pay, if any do, and says so. Worth nothing if it was
@@ -136,9 +164,9 @@ VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token&
   const auto with = [&](float light_paths, int cache_rounds) {
     VcmPlans result = plans;
     result.light_paths = light_paths;
-    result.cache_rounds = cache_rounds;
+    result.cache.rounds = cache_rounds;
     if (light_paths == 0) result.techniques = result.techniques.of_camera_paths();
-    const Efficiency expected = result.settle(disks, 1);
+    const Efficiency expected = result.expected(disks, 1);
     return std::pair(std::move(result), expected);
   };
   const auto of_paths_alone = with(0, 0);
@@ -151,13 +179,15 @@ VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token&
       if (stop.stop_requested()) return plans;
       auto other = with(plans.pilot->light_paths * factor, rounds);
       double handicap = factor < 1 && best.first.techniques.merging ? worth_fewer : 1;
-      if (rounds > 0 && best.first.cache_rounds == 0) handicap *= worth_caching;
-      if (rounds == 0 && best.first.cache_rounds > 0) handicap /= worth_caching;
+      if (rounds > 0 && best.first.cache.rounds == 0) handicap *= worth_caching;
+      if (rounds == 0 && best.first.cache.rounds > 0) handicap /= worth_caching;
       if (other.second.time() * handicap < best.second.time()) best = std::move(other);
     }
   const double gain = needs_merging ? std::numeric_limits<double>::infinity()
                                     : of_paths_alone.second.time() / best.second.time();
   VcmPlans result = std::move(best.first);
+  choose_gather_rays(result);
+  result.settle(disks, 1);
   result.decisions.push_back(described(result, gain));
   return result;
 }
@@ -182,18 +212,27 @@ std::string described(const LightGuides& guides) {
 
 }  // namespace
 
-std::vector<ProbeStatistics> VcmPilot::probes_with(int cache_rounds) const {
-  std::vector<ProbeStatistics> result = probes;
-  if (cache_rounds == 0) return result;
-  const std::vector<uint8_t>& served = cache_trials[size_t(cache_rounds) - 1].served;
+std::vector<ProbeStatistics> VcmPilot::probes_with(const CachePlan& cache, size_t step) const {
+  std::vector<ProbeStatistics> result = every(step, probes);
+  if (cache.rounds == 0) return result;
+  const std::vector<uint8_t>& served = cache_trials[size_t(cache.rounds) - 1].served;
   for (size_t i = 0; i < result.size(); ++i)
-    if (served[i]) result[i] = result[i].with_cache(IndirectCache::usual_samples);
+    if (served[i * step]) result[i] = result[i].with_cache(cache.gather_rays);
   return result;
 }
 
-PassCosts VcmPilot::costs_with(int cache_rounds) const {
+Efficiency VcmPilot::expected(const CachePlan& cache, const std::vector<MergeScale>& scales,
+                              const PlanChoices& choices) const {
+  const size_t step = std::max<size_t>(1, probes.size() / compared_probes);
+  const std::vector<ProbeStatistics> compared = probes_with(cache, step);
+  std::vector<PixelPlan> chosen(compared.size());
+  return choose_plans(compared, costs_with(cache), every(step, scales), choices, chosen);
+}
+
+PassCosts VcmPilot::costs_with(const CachePlan& cache) const {
   PassCosts result = costs;
-  if (cache_rounds > 0) result.cache_rays = cache_trials[size_t(cache_rounds) - 1].rays;
+  if (cache.rounds > 0)
+    result.cache_rays = cache_trials[size_t(cache.rounds) - 1].rays_per_ray * cache.gather_rays;
   return result;
 }
 
@@ -223,8 +262,8 @@ std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& dis
 
 Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   const std::vector<MergeScale> scales = merge_scales(disks, shrinkage);
-  const Efficiency result = choose_plans(pilot->probes_with(cache_rounds),
-                                         pilot->costs_with(cache_rounds), scales, choices, disks);
+  const Efficiency result =
+      choose_plans(pilot->probes_with(cache), pilot->costs_with(cache), scales, choices, disks);
   pixels = pixels.with(std::move(disks));
   return result;
 }
@@ -295,7 +334,7 @@ FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& s
     plans = with_merging(std::move(plans), found.light, of_pass, stop, rays);
   if (std::string text = described_light_samples(plans.pixels); !text.empty())
     plans.decisions.push_back(std::move(text));
-  if (plans.cache_rounds > 0)
+  if (plans.cache.rounds > 0)
     plans.decisions.emplace_back(
         "diffuse indirect light is gathered at some places, and interpolated between them where it "
         "is smooth");
@@ -471,12 +510,15 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
       double(light_path_count(size, plans.samples_per_pixel, plans.light_paths));
   pilot.costs = {samples, double(light.rays) / light_share /
                               (samples * double(size.x) * double(size.y) * shared_by)};
-  if (settings_.choices.cache != CacheUse::never && !stop.stop_requested())
+  if (settings_.choices.cache != CacheUse::never && !stop.stop_requested()) {
+    const SidedTree<LightVertexData> focused = focused_vertices(light.vertices, stop);
     try_cache({.scene = scene_,
                .light = light.vertices,
+               .focused = focused,
                .merge_radius_sq = settings.merge_area * inv_pi,
                .maximum_events = settings_.maximum_events},
               plans.pixels, pilot, stop, rays);
+  }
   return pilot;
 }
 
@@ -493,17 +535,14 @@ void VcmPlanner::try_cache(const GatherInputs& inputs, const PixelPlans& pixels,
   const std::vector<PixelProbe>& probes = pixels.seen().probes();
   const std::vector<MergeScale> scales(probes.size());
   const auto time = [&](int rounds) {
-    std::vector<PixelPlan> disks = pixels.plans();
-    return choose_plans(pilot.probes_with(rounds), pilot.costs_with(rounds), scales,
-                        settings_.choices, disks)
-        .time();
+    return pilot.expected({.rounds = rounds}, scales, settings_.choices).time();
   };
-  IndirectCache cache(inputs, Pass(), trial_samples);
+  IndirectCache cache(inputs, Pass(), trial_rays, stop);
   for (int rounds = 1; rounds <= IndirectCache::most_rounds; ++rounds) {
     cache.fill_round(stop);
     if (stop.stop_requested()) return;
     VcmPilot::CacheTrial& trial = pilot.cache_trials[size_t(rounds) - 1];
-    trial.rays = double(cache.rays()) * IndirectCache::usual_samples / trial_samples / samples;
+    trial.rays_per_ray = double(cache.rays()) / trial_rays / samples;
     trial.served.assign(probes.size(), 0);
     parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {
       for (size_t i = begin; i < end; ++i) {

@@ -24,16 +24,21 @@ struct VcmPilot {
   /// What a trial of the cache tells.
   struct CacheTrial {
     std::vector<uint8_t> served;  ///< probe by probe: whether it has the light there
-    double rays = 0;              ///< PassCosts::cache_rays
+    double rays_per_ray = 0;      ///< PassCosts::cache_rays by gather rays of a record
   };
   /// Of one round, of two …; without probes: not tried.
   std::array<CacheTrial, IndirectCache::most_rounds> cache_trials;
-  // Of passes that fill the cache in so many rounds, 0: that have none.
   bool has_tried(int cache_rounds) const {
     return cache_rounds == 0 || !cache_trials[size_t(cache_rounds) - 1].served.empty();
   }
-  std::vector<ProbeStatistics> probes_with(int cache_rounds) const;
-  PassCosts costs_with(int cache_rounds) const;
+  // Of passes that fill their cache so.
+  /// Of every `step`th probe.
+  std::vector<ProbeStatistics> probes_with(const CachePlan& cache, size_t step = 1) const;
+  PassCosts costs_with(const CachePlan& cache) const;
+  /// What choose_plans() expects, by some of the probes: enough of them to compare. `scales` by
+  /// probe.
+  Efficiency expected(const CachePlan& cache, const std::vector<MergeScale>& scales,
+                      const PlanChoices& choices) const;
   float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
   /// Light arrives somewhere in the scene that no path from the camera can find, or media scatter
   /// it, of which the pilot knows nothing.
@@ -64,12 +69,16 @@ struct VcmPlans {
   std::vector<std::string> decisions;     ///< what was chosen by itself, for the user
   /// Vertices that may be connected, per light path: what the weights go by.
   float connectible_per_path = 1;
-  PlanChoices choices;   ///< what the pilot is asked for
-  int cache_rounds = 0;  ///< in which each pass fills its cache; 0: there is none
+  PlanChoices choices;  ///< what the pilot is asked for
+  CachePlan cache;      ///< of each pass
 
   /// Gives the probes these disks and what the pilot is asked for, for passes whose disks have
   /// `shrinkage` times the area.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
+  /// What it would expect, by VcmPilot::expected().
+  Efficiency expected(const std::vector<PixelPlan>& disks, float shrinkage) const {
+    return pilot->expected(cache, merge_scales(disks, shrinkage), choices);
+  }
   /// How merging in such disks differs from the pilot's, by probe.
   std::vector<MergeScale> merge_scales(const std::vector<PixelPlan>& disks, float shrinkage) const;
   /// The same for passes from 0 on, the first of which has what the pass after `passes` would have.

@@ -55,7 +55,7 @@ void write_pilot(ByteWriter& writer, const VcmPilot* pilot) {
     writer.put(uint8_t(trial.served.empty() ? 0 : 1));
     if (trial.served.empty()) continue;
     writer.put_array(trial.served);
-    writer.put(trial.rays);
+    writer.put(trial.rays_per_ray);
   }
 }
 
@@ -70,8 +70,8 @@ std::shared_ptr<const VcmPilot> read_pilot(ByteReader& reader, size_t probes) {
   for (VcmPilot::CacheTrial& trial : pilot.cache_trials) {
     if (!reader.get_flag()) continue;
     trial.served = reader.get_array<uint8_t>(probes);
-    trial.rays = reader.get<double>();
-    if (!(trial.rays >= 0)) reader.damaged("filling a cache in it takes less than no rays");
+    trial.rays_per_ray = reader.get<double>();
+    if (!(trial.rays_per_ray >= 0)) reader.damaged("filling a cache in it takes less than no rays");
   }
   return std::make_shared<const VcmPilot>(std::move(pilot));
 }
@@ -91,7 +91,8 @@ void write_plans(ByteWriter& writer, const VcmPlans& plans) {
   writer.put(uint64_t(plans.decisions.size()));
   for (const std::string& decision : plans.decisions) writer.put_text(decision);
   writer.put(plans.connectible_per_path);
-  writer.put(int32_t(plans.cache_rounds));
+  writer.put(int32_t(plans.cache.rounds));
+  writer.put(int32_t(plans.cache.gather_rays));
 }
 
 VcmPlans PlansReader::next() {
@@ -127,12 +128,16 @@ VcmPlans PlansReader::next() {
   const auto decisions = reader_.get<uint64_t>();
   for (uint64_t i = 0; i < decisions; ++i) plans.decisions.push_back(reader_.get_text());
   plans.connectible_per_path = reader_.get<float>();
-  plans.cache_rounds = reader_.get<int32_t>();
+  plans.cache.rounds = reader_.get<int32_t>();
+  plans.cache.gather_rays = reader_.get<int32_t>();
   const bool may_have_cache = plans.pilot && settings_.choices.cache != CacheUse::never &&
                               !plans.techniques.splats && !plans.techniques.connections;
-  if (plans.cache_rounds < 0 || plans.cache_rounds > IndirectCache::most_rounds ||
-      (plans.cache_rounds > 0 && !(may_have_cache && plans.pilot->has_tried(plans.cache_rounds))))
+  if (plans.cache.rounds < 0 || plans.cache.rounds > IndirectCache::most_rounds ||
+      (plans.cache.rounds > 0 && !(may_have_cache && plans.pilot->has_tried(plans.cache.rounds))))
     reader_.damaged("its cache is filled in a number of rounds that was not tried");
+  if (plans.cache.gather_rays < IndirectCache::least_gather_rays ||
+      plans.cache.gather_rays > IndirectCache::most_gather_rays)
+    reader_.damaged("records of its cache have too few gather rays, or too many");
   plans.choices = settings_.choices;
   return plans;
 }
