@@ -49,6 +49,7 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       sink_(sink),
       wanted_(sink.wanted()),
       class_(traced),
+      from_first_(traced),
       raster_(raster),
       u_lens_(scene.camera().lens_numbers(sampler)) {
   const CameraTraits& camera = scene.camera().traits();
@@ -75,6 +76,8 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       wanted_(other.wanted_),
       state_(other.state_),
       class_(other.class_),
+      from_first_(other.from_first_),
+      is_mirrored_(other.is_mirrored_),
       light_choice_(other.light_choice_),
       raster_(other.raster_),
       u_lens_(other.u_lens_),
@@ -148,7 +151,7 @@ CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& 
 }
 
 bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
-  const Component in_medium = class_.component_in_medium();
+  const Component in_medium = component_in_medium();
   if (!wants(in_medium)) volume = nullptr;
   return arrive(weights, [&](float length) {
            if (volume && state_.medium->scatters())
@@ -161,7 +164,7 @@ bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
 }
 
 CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume, LightWeights* weights) {
-  const Component in_medium = class_.component_in_medium();
+  const Component in_medium = component_in_medium();
   if (!wants(in_medium)) volume = nullptr;
   return arrive(weights, [&](float length) {
     if (volume && state_.medium->scatters())
@@ -194,7 +197,7 @@ void CameraWalk::add_emission(LightWeights* weights) {
   if (emitted.is_zero()) return;
   const float weight = weights ? weights->met(vertex_.light(), vertex_)
                                : emission_weight(vertex_.light(), vertex_.point());
-  add(class_.component(), emitted * weight);
+  add(from_first_.component(), emitted * weight);
 }
 
 void CameraWalk::add_background(LightWeights* weights) {
@@ -205,7 +208,7 @@ void CameraWalk::add_background(LightWeights* weights) {
     if (state_.depth == 0 && scene_.is_hidden(index)) continue;
     const float weight =
         weights ? weights->met(index, ray_) : emission_weight(index, ray_.direction);
-    add(class_.component(), light.background(ray_.direction, state_.wavelengths) * weight);
+    add(from_first_.component(), light.background(ray_.direction, state_.wavelengths) * weight);
   }
 }
 
@@ -214,7 +217,7 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
   light_choice_ = sampling.choice;
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
-  const auto wanted = [&](Lobes lobe) { return wants(class_.component_after(lobe)); };
+  const auto wanted = [&](Lobes lobe) { return wants(from_first_.component_after(lobe)); };
   const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     ReflectedLight result;
     if (wanted(Lobes::diffuse))
@@ -243,7 +246,7 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
 }
 
 void CameraWalk::add_medium_light(LightWeights* weights) {
-  const Component component = class_.component_in_medium();
+  const Component component = component_in_medium();
   const Scatterer here = scatterer();
   const auto scatter = [&](const DirectLight& light, ShadowAnswer& answer) {
     if (!wants(component)) return Spectrum();
@@ -270,6 +273,7 @@ void CameraWalk::scatter_in_medium(const Vec2f& u) {
   state_.depth += 1;
   only_delta_ = false;
   class_.add_medium_event();
+  from_first_.add_medium_event();
   previous_ = in_medium_.query();
   ray_ = {in_medium_.point.position, wi, infinity};
 }
@@ -312,8 +316,19 @@ void CameraWalk::go_on(const BsdfSample& sample, float probability) {
   state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
   previous_ = light_query(vertex_, state_.depth);
   only_delta_ = only_delta_ && !any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy));
-  class_.add_event(sample.event);
+  add_event(sample.event);
   leave(vertex_, sample, sample.pdf_solid_angle, state_, ray_);
+}
+
+void CameraWalk::add_event(Lobes event) {
+  class_.add_event(event);
+  if (event != Lobes::delta || from_first_.has_events()) {
+    from_first_.add_event(event);
+    return;
+  }
+  // What was left out was that of the vertex's other lobes.
+  is_mirrored_ = true;
+  wanted_ = sink_.wants(Component::specular) ? ComponentSet::all() : ComponentSet();
 }
 
 bool CameraWalk::survive(float u) {

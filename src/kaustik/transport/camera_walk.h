@@ -87,6 +87,8 @@ class CameraWalk {
   int events() const { return state_.depth; }
   /// Whether the camera sees the vertex directly or by specular events alone.
   bool all_events_specular() const { return class_.all_specular(); }
+  /// The same by delta events alone.
+  bool all_events_delta() const { return !from_first_.has_events(); }
   /// The beam that the walk stands for; its width at the vertex begins as half a pixel's: many
   /// samples share a pixel, so that textures are filtered by half of it.
   const Footprint& footprint() const { return state_.footprint; }
@@ -109,10 +111,13 @@ class CameraWalk {
   const Ray& ray() const { return ray_; }
   /// From the lens to the vertex along the path, m; before the first advance() to the ray's origin.
   float distance() const { return distance_; }
+  // Components that the walk is asked for, and asks for, are those that light would be if the
+  // camera itself saw the first vertex: all that delta events before it show is specular.
+
   /// The component of light that arrives at the vertex, after specular events only or others, and
   /// leaves it by `event`.
   Component component_of(Lobes event, bool after_specular_events) const {
-    CameraPathClass path = class_;
+    CameraPathClass path = from_first_;
     path.add_event(event);
     path.add_event(after_specular_events ? Lobes::glossy : Lobes::diffuse);
     return path.component();
@@ -121,14 +126,16 @@ class CameraWalk {
   const CameraPathClass& path_class() const { return class_; }
   /// Adds radiance that the vertex sends back.
   void add(Component component, const Spectrum& radiance) {
-    if (wants(component)) sink_.add(component, state_.throughput * radiance);
+    if (wants(component)) sink_.add(shown_as(component), state_.throughput * radiance);
   }
   /// An estimate of the bias of what add() was given.
   void add_bias(const Spectrum& radiance) { sink_.add_bias(state_.throughput * radiance); }
   bool wants(Component component) const { return wanted_.has(component); }
-  /// From now on the walk and its branches look for nothing of that component: somebody else has
-  /// found all of it.
+  /// From the vertex on by other events than delta ones, the walk and its branches look for nothing
+  /// of that component: somebody else has found all of it.
   void leave_out(Component component) { wanted_ = wanted_.without(component); }
+  /// From now on what is found is not shown as specular because of the delta events so far.
+  void show_as_seen() { is_mirrored_ = false; }
   /// What layers show of the surface that is seen, by this walk and its branches.
   const FirstHit& first_hit() const { return sink_.first_hit(); }
   void set_first_hit(const FirstHit& seen) { sink_.set_first_hit(seen); }
@@ -136,10 +143,10 @@ class CameraWalk {
   Work work() { return {rays_, sink_.scratch()}; }
 
   /// Whether anything that is wanted may be found further on.
-  bool may_find_more() const { return class_.may_find(wanted_); }
+  bool may_find_more() const { return from_first_.may_find(wanted_); }
 
   /// Of light that a medium scatters into the path on its next segment.
-  Component component_in_medium() const { return class_.component_in_medium(); }
+  Component component_in_medium() const { return from_first_.component_in_medium(); }
   /// Adds light sampled at the point in the medium and scattered there.
   void add_medium_light(LightWeights* weights = nullptr);
   /// Chooses a direction by the medium's phase function for the next fly().
@@ -172,11 +179,15 @@ class CameraWalk {
 
  private:
   Component seen(Component component) const {
-    return state_.depth == 0 ? component : class_.component_after(Lobes::diffuse);
+    return state_.depth == 0 ? component : from_first_.component_after(Lobes::diffuse);
   }
+  Component shown_as(Component component) const {
+    return is_mirrored_ ? Component::specular : component;
+  }
+  void add_event(Lobes event);
   void go_on(const BsdfSample& event, float probability);
   void add_reflected(Lobes event, const Spectrum& radiance) {
-    add(class_.component_after(event), radiance);
+    add(from_first_.component_after(event), radiance);
   }
   float emission_weight(int light, const LightTarget& target) const;
   /// Whether the walk is still on its way to the surface whose irradiance is asked for.
@@ -199,6 +210,8 @@ class CameraWalk {
   ComponentSet wanted_;  ///< what the sink wants, but for what was left out
   PathState state_;
   CameraPathClass class_;
+  CameraPathClass from_first_;  ///< of the events from the first on that is not delta
+  bool is_mirrored_ = false;    ///< there are delta events before it
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Vec2f raster_;                                 ///< where it began
   LensNumbers u_lens_;                           ///< and of which point of the lens

@@ -21,6 +21,7 @@ class CameraPathClass {
     }
     ++events_;
   }
+  bool has_events() const { return events_ > 0; }
   bool all_specular() const { return events_ == 0 || (first_specular_ && rest_specular_); }
   /// Scattering in a medium.
   void add_medium_event() {

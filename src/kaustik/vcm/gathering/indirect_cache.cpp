@@ -16,6 +16,8 @@ constexpr float first_quality = 0.25f, first_minimum_spacing = 3, first_maximum_
 /// How much larger an error than in filling is allowed to who asks: else slivers between records
 /// would have other, coarser noise.
 constexpr float allowed_error = 1.4f;
+/// Delta events on the way to a vertex, and vertices of a path, that ask for records.
+constexpr int most_delta_events = 16, most_vertices = 4;
 
 CacheSettings settings_of(const Pass& pass, int gather_rays) {
   CacheSettings settings;
@@ -32,6 +34,11 @@ CachePoint cache_point_of(const CameraWalk& walk) {
   const Vec3f normal = walk.vertex().facing_normal();
   return {walk.vertex().point(), normal, 2 * std::min(footprint.width, footprint.sharp_width), 1,
           walk.vertex().medium_toward(normal, walk.medium())};
+}
+
+bool go_on_by_delta_lobe(CameraWalk& walk) {
+  const Vec2f u = walk.sampler().next_2d();
+  return walk.scatter(Lobes::delta, 1, walk.sampler().next_1d(), u);
 }
 
 }  // namespace
@@ -63,12 +70,23 @@ std::vector<CachePoint> IndirectCache::points_of_round(int stride,
           Vec2f(float(corner.x), float(corner.y)) + numbers.next_2d() * float(stride);
       SampleSink nowhere{ComponentSet(), pass_.wavelengths};
       CameraWalk walk(in_.scene, raster, numbers, nowhere);
-      if (walk.advance() && is_for(walk)) rows[row].push_back(cache_point_of(walk));
+      for (int i = 0; i < most_vertices && advance_to_vertex(walk); ++i) {
+        rows[row].push_back(cache_point_of(walk));
+        if (!go_on_by_delta_lobe(walk)) break;
+      }
     }
   });
   std::vector<CachePoint> points;
   for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
   return points;
+}
+
+bool IndirectCache::advance_to_vertex(CameraWalk& walk) {
+  while (walk.events() < most_delta_events && walk.advance()) {
+    if (is_for(walk)) return true;
+    if (!go_on_by_delta_lobe(walk)) return false;
+  }
+  return false;
 }
 
 bool IndirectCache::serves(const CameraWalk& walk) const {

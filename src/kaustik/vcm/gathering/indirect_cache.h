@@ -29,13 +29,15 @@ class IndirectCache {
   /// The next of its rounds. Worth nothing if it was stopped. Not while others ask.
   void fill_round(const std::stop_token& stop);
 
-  /// Whether there may ever be light for the walk's vertex: the first of its path, without relief,
-  /// whose diffuse lobe sends light back alike to all sides.
+  /// Whether there may ever be light for the walk's vertex: the first of its path, be it mirrored,
+  /// without relief, whose diffuse lobe sends light back alike to all sides.
   static bool is_for(const CameraWalk& walk) {
     const SurfaceVertex& vertex = walk.vertex();
-    return walk.events() == 0 && walk.gauge() < 0 && any(vertex.lobes() & Lobes::diffuse) &&
+    return walk.all_events_delta() && walk.gauge() < 0 && any(vertex.lobes() & Lobes::diffuse) &&
            vertex.is_lambertian() && !vertex.transmits() && !vertex.has_relief();
   }
+  /// Takes the walk on to such a vertex, by delta events on its way; false if it finds none.
+  static bool advance_to_vertex(CameraWalk& walk);
   /// Whether it has the light of such a vertex.
   bool serves(const CameraWalk& walk) const;
   /// Radiance that the diffuse lobe of such a vertex sends back of diffuse indirect light; false if

@@ -230,6 +230,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
       path.add_direct_light(&recorder);
       const bool was_before = path.vertices().is_at_first();
       if (was_before) {
+        walk.show_as_seen();
         if (IndirectCache::is_for(walk)) recorder.leave_to_cache();
         // Another sample from the same place.
         recorder.note();

@@ -549,7 +549,7 @@ void VcmPlanner::try_cache(const GatherInputs& inputs, const PixelPlans& pixels,
         Sampler numbers = Sampler::at(0, 0, Stream::pilot_path, i, 0);
         SampleSink nowhere{ComponentSet()};
         CameraWalk walk(scene_, probes[i].raster, numbers, nowhere);
-        trial.served[i] = walk.advance() && IndirectCache::is_for(walk) && cache.serves(walk);
+        trial.served[i] = IndirectCache::advance_to_vertex(walk) && cache.serves(walk);
       }
     });
     // Finer rounds cost more, and serve less.
