@@ -110,6 +110,19 @@ TEST(Auto, CacheHasTheIndirectLightOfPath) {
                       Comparison(cached.mean({component}), path.mean({component})), 0.01, 0.005);
 }
 
+/// So it has where a mirror and clear glass show it, under a name that tells nothing of it.
+TEST(Auto, CacheHasTheMirroredLightOfPath) {
+  const TestScene scene(room_of_auto(ceiling_lamp(ceiling, 8) +
+                                         sphere("0.4, 0.3, 0.6", 0.4, mirror()) +
+                                         sphere("-0.5, 0.4, 0.4", 0.35, glass()),
+                                     slow_build ? 32 : 64));
+  const Passes path = render(scene, "path", "", {100});
+  const Passes cached = render(scene, "ppm", set("indirect_cache", "always"), {12});
+  for (const std::string component : {"specular", "indirect", "direct"})
+    expect_near_means("cached " + component,
+                      Comparison(cached.mean({component}), path.mean({component})), 0.015, 0.006);
+}
+
 /// A matt room is smooth, and gathering shows the whole of it to what the camera sees.
 TEST(Auto, CachesIndirectLightWhereItIsSmooth) {
   const auto has_cache = [](const std::string& scene_text, const std::string& parameters) {

@@ -33,7 +33,7 @@ Served served_by(const Scene& scene, int maximum_events, uint32_t passes) {
                          .light = no_light,
                          .focused = nothing_focused,
                          .maximum_events = maximum_events},
-                        {0, pass, 1});
+                        {0, pass, 1}, 128);
     for (int round = 0; round < IndirectCache::most_rounds; ++round) cache.fill_round({});
     double sum = 0;
     int found = 0;
@@ -92,6 +92,22 @@ TEST(IndirectCache, IsForMattSurfacesThatTheCameraSees) {
   EXPECT_TRUE(is_for(phong(0.4, 0.3, 20)));
   EXPECT_FALSE(is_for(mirror()));
   EXPECT_FALSE(is_for(glass()));
+}
+
+/// Mirrors show matt surfaces, what scatters light by a glossy lobe does not.
+TEST(IndirectCache, IsForWhatMirrorsShow) {
+  const auto finds = [](const std::string& first) {
+    const TestScene scene(
+        camera("0, 0, 2", "0, 0, 0", 30, 8, "0, 1, 0") + flat("rectangle", "", first) +
+        flat("rectangle", rotate("1, 0, 0", 180) + translate("0, 0, 3"), diffuse("0.5, 0.5, 0.5")));
+    Sampler numbers = Sampler::at(0, 0, Stream::camera, 0, 0);
+    SampleSink nowhere{ComponentSet()};
+    CameraWalk walk(scene.scene(), {4, 4}, numbers, nowhere);
+    return IndirectCache::advance_to_vertex(walk);
+  };
+  EXPECT_TRUE(finds(diffuse("0.5, 0.5, 0.5")));
+  EXPECT_TRUE(finds(mirror()));
+  EXPECT_FALSE(finds(R"(<bsdf type="roughconductor"><float name="alpha" value="0.2"/></bsdf>)"));
 }
 
 }  // namespace

@@ -165,6 +165,38 @@ Seen middle_of_the_floor(const PathWeights& weights) {
 }
 
 /// Blocks that a stop has left unfilled are never read.
+/// Of focused vertices alone merges what merges of them among all.
+TEST(MattMerging, OfSomeVertices) {
+  const PathWeights weights = all_techniques();
+  const LightVertices light = light_vertices(3001);
+  const SidedTree<LightVertexData> focused = focused_vertices(light);
+  EXPECT_LT(focused.size(), light.tree.size() / 2);
+  const MattMerging of_all(light, weights), of_focused(light, focused, weights);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(0, 1);
+  int empty = 0, found = 0;
+  for (int i = 0; i < 300; ++i) {
+    MattDisk disk;
+    disk.normal = {0, 0, 1};
+    disk.center = {2 * unit(random), unit(random), 0};
+    disk.radius = disk.flatness = 0.1f * unit(random);
+    disk.least_cosine = 0.5f;
+    disk.only_after_specular = true;
+    const MattLight expected = of_all.merge(disk), light_there = of_focused.merge(disk);
+    expect_same(light_there.after_specular.wide, expected.after_specular.wide);
+    expect_same(light_there.after_specular.narrow, expected.after_specular.narrow);
+    EXPECT_TRUE(light_there.other.wide.is_zero());
+    if (of_focused.may_merge(disk.center, disk.radius)) {
+      ++found;
+    } else {
+      ++empty;
+      EXPECT_TRUE(expected.after_specular.wide.is_zero());
+    }
+  }
+  EXPECT_GT(empty, 50);
+  EXPECT_GT(found, 50);
+}
+
 TEST(MattMerging, NothingMergesOnceStopped) {
   const PathWeights weights = all_techniques();
   const LightVertices light = light_vertices(3001);

@@ -217,22 +217,26 @@ TEST(VcmPlans, SettleByWhatACacheLeaves) {
   one.areas.pop_back();
   one.probes[0].ungathered.squares[ProbeStatistics::bin_of_one] = 0.001;
   one.probes[0].gather_variance = 2;
-  one.cache_trials[0] = {{1}, 10};
+  one.cache_trials[0] = {{1}, 0.1};
   EXPECT_TRUE(one.has_tried(0) && one.has_tried(1));
   EXPECT_FALSE(one.has_tried(2));
   plans.pilot = std::make_shared<const VcmPilot>(one);
   plans.choices = {.survival = false, .light_samples = false};
   const std::vector<PixelPlan> disks{{1.5f, 1, 1}};
   const Efficiency without = plans.settle(disks, 0.25f);
-  plans.cache_rounds = 1;
+  plans.cache = {.rounds = 1, .gather_rays = 100};
   const Efficiency with = plans.settle(disks, 0.25f);
   EXPECT_DOUBLE_EQ(with.rays, without.rays + 10 * cost_model.gather_ray);
   // 4 samples, of which all go on; 4 times the light paths merge in 3/4 of the area.
   const double relative = 1 / 1.01, nu = 0.75 * 4;
   const double direct = 1.0 / 4;
   EXPECT_NEAR(without.squared_error, (1 / (4 + 64 * nu) + direct) * relative, 1e-9);
-  const double gathered = 2.0 / (2 * IndirectCache::usual_samples);
+  const double gathered = 2.0 / 100;
   EXPECT_NEAR(with.squared_error, (0.001 / (4 + nu) + direct + gathered) * relative, 1e-9);
+  // One probe stands for all.
+  const Efficiency expected = plans.expected(disks, 0.25f);
+  EXPECT_EQ(expected.squared_error, with.squared_error);
+  EXPECT_EQ(expected.rays, with.rays);
 }
 
 /// What the camera sees from 2 m off counts as near within one degree.

@@ -9,24 +9,19 @@
 namespace kaustik {
 namespace {
 
-/// Vertices within a disk of the first pass, and at least.
-constexpr float first_neighbors = 16;
-constexpr int least_neighbors = 6;
-/// One path in so many tells places, the others what light is there.
-constexpr uint32_t paths_per_place = 4;
-constexpr float told_share = 1 - 1.0f / paths_per_place;
-/// Who looks from nearer than so many radii sees how the disk blurs the light.
+/// One path in so many tells places, the others what light is there; in fewer where there would be
+/// more places than needed.
+constexpr uint32_t least_paths_per_place = 4;
+constexpr size_t enough_places = 1 << 14;
+/// Places within a disk of the first pass, and at least.
+constexpr float first_places = 4, least_places = 1.5f;
+/// Who looks from so many radii off does not see how disks blur.
 constexpr float least_distance = 4;
 /// What lies farther from a plane, in radii, or faces another way, is another surface.
 constexpr float most_height = 0.25f, least_cosine = 0.7f;
 /// Where vertices are farther off the middle of their disk, on average, in radii, it is not all
-/// surface: that of half a disk is 0.42 off.
+/// surface: those of half a disk are 0.42 off.
 constexpr float most_off_center = 0.3f;
-
-bool tells_place(const LightVertexData& data) {
-  // Paths are known by where their vertices begin.
-  return (data.path * 0x9e3779b9u >> 16) % paths_per_place == 0;
-}
 
 bool is_same_surface(const Vec3f& offset, const CoarseNormal& side, const Vec3f& normal,
                      float radius) {
@@ -34,81 +29,115 @@ bool is_same_surface(const Vec3f& offset, const CoarseNormal& side, const Vec3f&
          side.dot(normal) >= least_cosine * side.length();
 }
 
-/// What most of the radii are smaller than; 0: there are none.
-float usual_radius(std::vector<float> radii) {
-  if (radii.empty()) return 0;
-  const auto most = radii.begin() + std::ptrdiff_t(0.9 * double(radii.size()));
-  std::nth_element(radii.begin(), most, radii.end());
-  return *most;
-}
-
 }  // namespace
+
+class ScatteredLight::Builder {
+ public:
+  Builder(const LightVertices& light, float shrinkage, const std::stop_token& stop)
+      : light_(light),
+        stop_(stop),
+        paths_per_place_(std::max(least_paths_per_place, uint32_t(data().size() / enough_places))),
+        neighbors_(to_integer(
+            std::round(float(paths_per_place_) * std::max(least_places, first_places * shrinkage)),
+            2, 1 << 30)) {
+    for (size_t i = 0; i < data().size(); ++i)
+      if (!data()[i].specular && tells_place(data()[i])) numbers_.push_back(uint32_t(i));
+  }
+
+  void build(ScatteredLight& result) {
+    find_radius();
+    if (!(radius_ > 0) || stop_.stop_requested()) return;
+    std::vector<Vec3f> positions(numbers_.size());
+    std::vector<Place> places(numbers_.size());
+    parallel_blocks(numbers_.size(), 256, [&](size_t begin, size_t end, size_t) {
+      std::vector<uint32_t> near;
+      for (size_t p = begin; p < end && !stop_.stop_requested(); ++p) {
+        positions[p] = vertices().key(numbers_[p]);
+        places[p] = place_at(p, near);
+      }
+    });
+    if (stop_.stop_requested()) return;
+    result.tree_ = {std::move(positions), std::move(places), stop_};
+    result.radius_ = radius_;
+  }
+
+ private:
+  const KdTree<3, Vec3f, LightVertexData>& vertices() const { return light_.tree.tree(); }
+  std::span<const LightVertexData> data() const { return vertices().data(); }
+  bool tells_place(const LightVertexData& vertex) const {
+    // Paths are known by where their vertices begin.
+    return (vertex.path * 0x9e3779b9u >> 8) % paths_per_place_ == 0;
+  }
+
+  /// That of half of the disks that hold as many vertices as are wanted.
+  void find_radius() {
+    reaches_.assign(numbers_.size(), infinity);
+    parallel_blocks(numbers_.size(), 256, [&](size_t begin, size_t end, size_t) {
+      SidedTree<LightVertexData>::Neighbors near;
+      for (size_t p = begin; p < end && !stop_.stop_requested(); ++p) {
+        light_.tree.nearest(vertices().key(numbers_[p]), data()[numbers_[p]].side.unpack(), false,
+                            neighbors_ + 1, infinity, near);
+        if (near.complete()) reaches_[p] = std::sqrt(near.farthest_sq());
+      }
+    });
+    if (numbers_.empty()) return;
+    std::vector<float> reaches = reaches_;
+    const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
+    std::nth_element(reaches.begin(), middle, reaches.end());
+    if (std::isfinite(*middle)) radius_ = *middle;
+  }
+
+  Place place_at(size_t p, std::vector<uint32_t>& near) const {
+    const Vec3f position = vertices().key(numbers_[p]);
+    Place place;
+    place.side = data()[numbers_[p]].side;
+    // Few vertices do not show where the surface ends: then those farther off are asked, too.
+    const float reach = std::max(radius_, reaches_[p]);
+    if (!std::isfinite(reach)) return place;
+    const Vec3f normal = place.side.unpack();
+    near.clear();
+    light_.tree.within(position, normal, false, sqr(reach),
+                       [&](uint32_t index, float) { near.push_back(index); });
+    Spectrum flux;
+    Vec3f offsets(0, 0, 0);
+    for (const uint32_t index : near) {
+      const LightVertexData& vertex = data()[index];
+      const Vec3f offset = vertices().key(index) - position;
+      if (!is_same_surface(offset, vertex.side, normal, reach)) return place;
+      offsets += offset;
+      if (!vertex.specular && !tells_place(vertex) && length_sq(offset) < sqr(radius_))
+        flux += vertex.flux.spectrum();
+    }
+    place.is_whole = length(offsets) <= most_off_center * reach * float(near.size());
+    const float told_share = 1 - 1 / float(paths_per_place_);
+    place.irradiance = flux * (inv_pi / (sqr(radius_) * told_share * float(light_.path_count)));
+    return place;
+  }
+
+  const LightVertices& light_;
+  const std::stop_token& stop_;
+  uint32_t paths_per_place_;
+  int neighbors_;
+  std::vector<uint32_t> numbers_;  ///< of the vertices that are places
+  std::vector<float> reaches_;     ///< of disks around them that hold so many neighbours, m
+  float radius_ = 0;
+};
 
 ScatteredLight::ScatteredLight(const LightVertices& light, float shrinkage,
                                const std::stop_token& stop) {
-  const auto& vertices = light.tree.tree();
-  const std::span<const LightVertexData> data = vertices.data();
-  std::vector<uint32_t> numbers;
-  for (size_t i = 0; i < data.size(); ++i)
-    if (!data[i].specular && tells_place(data[i])) numbers.push_back(uint32_t(i));
-  const int neighbors =
-      std::max(least_neighbors, to_integer(std::round(first_neighbors * shrinkage), 1, 1 << 20));
-  const float per_path = inv_pi / (told_share * float(light.path_count));
-  std::vector<Vec3f> positions(numbers.size());
-  std::vector<Place> places(numbers.size());
-  parallel_blocks(numbers.size(), 256, [&](size_t begin, size_t end, size_t) {
-    SidedTree<LightVertexData>::Neighbors near;
-    for (size_t p = begin; p < end && !stop.stop_requested(); ++p) {
-      const Vec3f position = positions[p] = vertices.key(numbers[p]);
-      const LightVertexData& own = data[numbers[p]];
-      places[p].side = own.side;
-      const Vec3f normal = own.side.unpack();
-      // Itself among them.
-      light.tree.nearest(position, normal, false, neighbors + 1, infinity, near);
-      const float radius_sq = near.farthest_sq();
-      if (!near.complete() || !(radius_sq > 0)) continue;
-      const float radius = places[p].radius = std::sqrt(radius_sq);
-      Spectrum flux;
-      Vec3f offsets(0, 0, 0);
-      size_t elsewhere = 0;
-      // The farthest tells the radius. It does not count, or the light would be too bright.
-      for (size_t i = 0; i + 1 < near.size(); ++i) {
-        const LightVertexData& of = data[near.index(i)];
-        const Vec3f offset = vertices.key(near.index(i)) - position;
-        if (!is_same_surface(offset, of.side, normal, radius)) {
-          ++elsewhere;
-          continue;
-        }
-        offsets += offset;
-        if (!of.specular && !tells_place(of)) flux += of.flux.spectrum();
-      }
-      // The surface ends within the disk, or another one begins: what is there tells too little.
-      if (elsewhere > 0 || length(offsets) > most_off_center * radius * float(near.size() - 2))
-        places[p].radius = 0;
-      places[p].irradiance = flux * (per_path / radius_sq);
-    }
-  });
-  if (stop.stop_requested() || places.empty()) return;
-  std::vector<float> radii;
-  for (const Place& place : places)
-    if (place.radius > 0) radii.push_back(place.radius);
-  reach_ = usual_radius(std::move(radii));
-  tree_ = {std::move(positions), std::move(places), stop};
+  Builder(light, shrinkage, stop).build(*this);
 }
 
 bool ScatteredLight::lookup(const Vec3f& position, const Vec3f& normal, float distance,
                             Scratch& scratch, Spectrum& irradiance) const {
-  if (empty()) return false;
+  if (empty() || distance < least_distance * radius_) return false;
   const auto borrowed = scratch.borrow<SidedTree<Place>::Neighbors>();
   SidedTree<Place>::Neighbors& near = *borrowed;
-  tree_.nearest(position, normal, false, 1, std::min(reach_, distance / least_distance), near);
+  tree_.nearest(position, normal, false, 1, radius_, near);
   if (near.empty()) return false;
   const Place& place = tree_.tree().data(near.index(0));
-  if (!(place.radius > 0) || place.radius * least_distance > distance) return false;
   const Vec3f offset = tree_.tree().key(near.index(0)) - position;
-  if (near.distance_sq(0) > sqr(place.radius) ||
-      !is_same_surface(offset, place.side, normal, place.radius))
-    return false;
+  if (!place.is_whole || !is_same_surface(offset, place.side, normal, radius_)) return false;
   irradiance = place.irradiance.spectrum();
   return true;
 }
