@@ -124,7 +124,7 @@ TEST_F(DiffuseSphere, LightTracer) {
 TEST_F(DiffuseSphere, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {10})); }
 TEST_F(DiffuseSphere, VcmLong) { check("vcm", render(scene_, "vcm", many_light_paths(), {120})); }
 TEST_F(DiffuseSphere, PpmLong) { check("ppm", render(scene_, "ppm", many_light_paths(), {120})); }
-TEST_F(DiffuseSphere, Auto) { check("auto", render(scene_, "auto", "", {120})); }
+TEST_F(DiffuseSphere, Auto) { check("auto", render(scene_, "auto", "", {180})); }
 TEST_F(DiffuseSphere, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
 }

@@ -44,7 +44,7 @@ Served served_by(const Scene& scene, int maximum_events, uint32_t passes) {
       CameraWalk walk(scene, Vec2f(float(i % side) + 0.5f, float(i / side) + 0.5f) * 4, numbers,
                       nowhere);
       Spectrum radiance;
-      EXPECT_TRUE(walk.advance() && IndirectCache::is_for(walk));
+      EXPECT_TRUE(walk.advance() && IndirectCache::is_for(walk, any_number_of_events));
       EXPECT_EQ(cache.serves(walk), cache.reflected(walk, radiance));
       if (!cache.serves(walk)) continue;
       sum += double(radiance[0]);
@@ -86,7 +86,7 @@ TEST(IndirectCache, IsForMattSurfacesThatTheCameraSees) {
     SampleSink nowhere{ComponentSet()};
     CameraWalk walk(scene.scene(), {4, 4}, numbers, nowhere);
     EXPECT_TRUE(walk.advance());
-    return IndirectCache::is_for(walk);
+    return IndirectCache::is_for(walk, any_number_of_events);
   };
   EXPECT_TRUE(is_for(diffuse("0.5, 0.5, 0.5")));
   EXPECT_TRUE(is_for(phong(0.4, 0.3, 20)));
@@ -94,20 +94,57 @@ TEST(IndirectCache, IsForMattSurfacesThatTheCameraSees) {
   EXPECT_FALSE(is_for(glass()));
 }
 
-/// Mirrors show matt surfaces, what scatters light by a glossy lobe does not.
+/// Mirrors and clear glass show matt surfaces, what scatters light by a glossy lobe does not.
+/// Records do not know how many events there are before them.
 TEST(IndirectCache, IsForWhatMirrorsShow) {
-  const auto finds = [](const std::string& first) {
+  const auto finds = [](const std::string& first, int maximum_events = any_number_of_events) {
     const TestScene scene(
         camera("0, 0, 2", "0, 0, 0", 30, 8, "0, 1, 0") + flat("rectangle", "", first) +
         flat("rectangle", rotate("1, 0, 0", 180) + translate("0, 0, 3"), diffuse("0.5, 0.5, 0.5")));
     Sampler numbers = Sampler::at(0, 0, Stream::camera, 0, 0);
     SampleSink nowhere{ComponentSet()};
     CameraWalk walk(scene.scene(), {4, 4}, numbers, nowhere);
-    return IndirectCache::advance_to_vertex(walk);
+    return IndirectCache::advance_to_vertex(walk, maximum_events);
   };
   EXPECT_TRUE(finds(diffuse("0.5, 0.5, 0.5")));
+  EXPECT_TRUE(finds(diffuse("0.5, 0.5, 0.5"), 3));
   EXPECT_TRUE(finds(mirror()));
+  EXPECT_FALSE(finds(mirror(), 3));
   EXPECT_FALSE(finds(R"(<bsdf type="roughconductor"><float name="alpha" value="0.2"/></bsdf>)"));
+}
+
+/// Where the camera sees the furnace through a mirror or a pane, it has the light of what is seen.
+/// They are so small that gather rays hardly ever meet them.
+TEST(IndirectCache, HasTheLightThatMirrorsShow) {
+  for (const std::string& bsdf : {mirror(), std::string(R"(<bsdf type="thindielectric"/>)")}) {
+    const TestScene scene(
+        camera("0, 0, 0", "1, 0, 0", 20, 32) +
+        flat("rectangle", scale("0.06, 0.06, 1") + rotate("0, 1, 0", -90) + translate("0.3, 0, 0"),
+             bsdf) +
+        sphere("0, 0, 0", 1, diffuse("0.5, 0.5, 0.5") + area_light("1, 1, 1"), true));
+    const LightVertices no_light;
+    const SidedTree<LightVertexData> nothing_focused;
+    IndirectCache cache({.scene = scene.scene(), .light = no_light, .focused = nothing_focused},
+                        {0, 0, 1}, 128);
+    for (int round = 0; round < IndirectCache::most_rounds; ++round) cache.fill_round({});
+    int served = 0, mirrored = 0;
+    double sum = 0;
+    for (uint32_t i = 0; i < 64; ++i) {
+      Sampler numbers = Sampler::at(0, 0, Stream::camera, i, 0);
+      SampleSink nowhere{ComponentSet()};
+      CameraWalk walk(scene.scene(), numbers.next_2d() * 32, numbers, nowhere);
+      if (!IndirectCache::advance_to_vertex(walk, any_number_of_events)) continue;
+      if (walk.events() == 0) continue;
+      ++mirrored;
+      Spectrum radiance;
+      if (!cache.reflected(walk, radiance)) continue;
+      ++served;
+      sum += double(radiance[0]);
+    }
+    EXPECT_GT(mirrored, 20);
+    EXPECT_GT(served, 0.7 * mirrored);
+    EXPECT_NEAR(sum / served, furnace_albedo * furnace_albedo / (1 - furnace_albedo), 0.05) << bsdf;
+  }
 }
 
 }  // namespace

@@ -164,7 +164,6 @@ Seen middle_of_the_floor(const PathWeights& weights) {
   return seen;
 }
 
-/// Blocks that a stop has left unfilled are never read.
 /// Of focused vertices alone merges what merges of them among all.
 TEST(MattMerging, OfSomeVertices) {
   const PathWeights weights = all_techniques();
@@ -197,6 +196,7 @@ TEST(MattMerging, OfSomeVertices) {
   EXPECT_GT(found, 50);
 }
 
+/// Blocks that a stop has left unfilled are never read.
 TEST(MattMerging, NothingMergesOnceStopped) {
   const PathWeights weights = all_techniques();
   const LightVertices light = light_vertices(3001);

@@ -96,12 +96,16 @@ class Session::Monitor {
   double elapsed() const { return seconds_since(start_); }
   /// Of the last pass: the first may hold plans that are made once, the mean would too.
   double last_pass_seconds() const { return last_pass_seconds_; }
-  /// Of a pass like the last one until each pixel has a sample.
+  /// Of the next pass until each pixel has a sample, if it is like the last one. That may have been
+  /// the first, whose light pass makes plans: then the next one's may take a fraction of its time.
+  /// To try it costs nothing, for it is halted where it comes too late.
   double least_pass_seconds() const {
+    constexpr double least_fraction = 0.25;
     const double camera = last_pass_seconds_ - last_light_seconds_;
-    return last_light_seconds_ + (session_.integrator_.traits().samples_camera
-                                      ? camera / std::max(1u, session_.samples_per_pass_)
-                                      : camera);
+    return (passes_done() - passes_at_start_ > 1 ? 1 : least_fraction) * last_light_seconds_ +
+           (session_.integrator_.traits().samples_camera
+                ? camera / std::max(1u, session_.samples_per_pass_)
+                : camera);
   }
 
   /// Tells the listener if it is time, or if `force`.

@@ -111,8 +111,8 @@ class CameraWalk {
   const Ray& ray() const { return ray_; }
   /// From the lens to the vertex along the path, m; before the first advance() to the ray's origin.
   float distance() const { return distance_; }
-  // Components that the walk is asked for, and asks for, are those that light would be if the
-  // camera itself saw the first vertex: all that delta events before it show is specular.
+  // Components count from the first vertex on, as if the camera itself saw it. What delta events
+  // before it show goes to the sink as specular.
 
   /// The component of light that arrives at the vertex, after specular events only or others, and
   /// leaves it by `event`.
@@ -131,8 +131,9 @@ class CameraWalk {
   /// An estimate of the bias of what add() was given.
   void add_bias(const Spectrum& radiance) { sink_.add_bias(state_.throughput * radiance); }
   bool wants(Component component) const { return wanted_.has(component); }
-  /// From the vertex on by other events than delta ones, the walk and its branches look for nothing
-  /// of that component: somebody else has found all of it.
+  /// From now on the walk and its branches look for nothing of that component: somebody else has
+  /// found all of it. At a first vertex that is for its other lobes: whoever goes on from there by
+  /// a delta event looks for all light again.
   void leave_out(Component component) { wanted_ = wanted_.without(component); }
   /// From now on what is found is not shown as specular because of the delta events so far.
   void show_as_seen() { is_mirrored_ = false; }
@@ -179,7 +180,7 @@ class CameraWalk {
 
  private:
   Component seen(Component component) const {
-    return state_.depth == 0 ? component : from_first_.component_after(Lobes::diffuse);
+    return all_events_delta() ? component : from_first_.component_after(Lobes::diffuse);
   }
   Component shown_as(Component component) const {
     return is_mirrored_ ? Component::specular : component;

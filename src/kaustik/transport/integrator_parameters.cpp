@@ -60,7 +60,7 @@ Parameter hide_emitters_parameter() {
 
 int read_maximum_events(const Arguments& arguments) {
   const auto depth = arguments.integer("max_depth");
-  return depth < 0 ? 1 << 20 : std::max(0, int(depth) - 1);
+  return depth < 0 ? any_number_of_events : std::max(0, int(depth) - 1);
 }
 
 }  // namespace kaustik

@@ -96,8 +96,8 @@ enum class MediumEvents {
 };
 
 struct LightPathLimits {
-  int maximum_events = 1 << 20;    ///< scattering events
-  Lobes traced = Lobes::specular;  ///< lobes whose events count as specular
+  int maximum_events = any_number_of_events;  ///< scattering events
+  Lobes traced = Lobes::specular;             ///< lobes whose events count as specular
   MediumEvents in_media = MediumEvents::follow;
   /// Where bent normals are met at grazing incidence, flux grows without bound, rarely (the factor
   /// of SurfaceVertex::eval_cosine): what is beyond this share of the emitted flux is cut off. What

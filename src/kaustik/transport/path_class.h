@@ -4,6 +4,9 @@
 
 namespace kaustik {
 
+/// Most scattering events of a path where no number of them is asked for.
+inline constexpr int any_number_of_events = 1 << 20;
+
 /// Tells the owner of a path that is followed from the camera. `traced` are the lobes whose events
 /// count as G (specular): Lobes::specular for the referees.
 class CameraPathClass {

@@ -1,5 +1,6 @@
 #pragma once
 #include "kaustik/transport/integrator.h"
+#include "kaustik/transport/path_class.h"
 #include "kaustik/transport/vertex.h"
 #include "kaustik/vcm/lessons/light_path_emission.h"
 #include "kaustik/vcm/light_vertices.h"
@@ -14,7 +15,7 @@ struct VcmLightInputs {
   const LightPathEmission& emission;
   const PathWeights& weights;
   ComponentSet components = ComponentSet::all();
-  int maximum_events = 1 << 20;
+  int maximum_events = any_number_of_events;
   uint32_t light_paths = 1;
   float camera_samples = 1;  ///< per pixel
   const PixelPlans& plans;

@@ -57,8 +57,8 @@ class VcmPass {
   GaugeDisks gauges_;
   LightVertices light_;
   MattMerging matt_;
-  SidedTree<LightVertexData> focused_;    ///< if there is a cache
-  MattMerging focused_matt_;              ///< the same
+  SidedTree<LightVertexData> focused_;    ///< focused_vertices() of it, if there is a cache, …
+  MattMerging focused_matt_;              ///< … and merging with them
   std::unique_ptr<IndirectCache> cache_;  ///< null: there is none
   float connection_scale_ = 0;
 };

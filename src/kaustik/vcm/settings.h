@@ -4,6 +4,7 @@
 
 #include "kaustik/photon/emission/emission.h"
 #include "kaustik/transport/component.h"
+#include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_weights.h"
 #include "kaustik/vcm/plan/plan_choices.h"
 
@@ -13,7 +14,7 @@ namespace kaustik {
 struct VcmSettings {
   ComponentSet components = ComponentSet::all();
   Techniques techniques;
-  int maximum_events = 1 << 20;
+  int maximum_events = any_number_of_events;
   int roulette_depth = 5;
   Aim aim = default_aim;
   bool guiding = true;

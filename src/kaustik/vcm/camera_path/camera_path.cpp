@@ -40,7 +40,8 @@ void CameraPath::add_direct_light(LightWeights* weights) {
 }
 
 void CameraPath::ask_cache() {
-  if (!IndirectCache::is_for(walk_) || !walk_.wants(Component::indirect)) return;
+  if (!IndirectCache::is_for(walk_, in_.maximum_events) || !walk_.wants(Component::indirect))
+    return;
   Spectrum radiance;
   if (!in_.cache->reflected(walk_, radiance)) return;
   walk_.add(Component::indirect, radiance);

@@ -23,7 +23,7 @@ struct CameraPathInputs {
   float connection_scale = 0;  ///< of a connected vertex: vertices over paths and connections
   float merge_radius_sq = 0;   ///< at vertices that the camera does not see
   MediumDisks media = {};
-  int maximum_events = 1 << 20;
+  int maximum_events = any_number_of_events;
   int roulette_depth = 5;
   int connections = 1;                       ///< per vertex
   const ScatterGuide* scattering = nullptr;  ///< of light paths; null: not guided

@@ -24,7 +24,7 @@ Vec3f side_of(const SurfaceVertex& vertex) {
 GatheredLight::GatheredLight(const GatherInputs& inputs, const std::stop_token& stop)
     : in_(inputs) {
   // What is looked up has any number of events before.
-  if (in_.maximum_events >= GatherInputs::any_events)
+  if (in_.maximum_events >= any_number_of_events)
     scattered_ = ScatteredLight(in_.light, in_.shrinkage, stop);
 }
 
@@ -72,14 +72,14 @@ RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
   state.footprint.scatter(Lobes::diffuse, 0.5f * inv_pi);
   Ray ray = spawn_ray(from, direction);
   SurfaceVertex vertex;
-  float distance = 0, hit_distance = 0;
+  float distance = 0, since_event = 0;
   uint64_t rays = 0;
   const auto go_on = [&](const Hit& hit, bool found) {
     if (state.medium)
       state.throughput *= state.medium->transmittance({ray.origin, ray.direction, hit.t},
                                                       state.wavelengths, sampler);
     distance += hit.t;
-    hit_distance = hit.t;
+    since_event += hit.t;
     return found;
   };
   while (travel(in_.scene, state, ray, vertex, rays, go_on)) {
@@ -92,8 +92,8 @@ RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
       Spectrum sent = direct_light(vertex, state, sampler, rays);
       sent += focused_light(vertex, state.depth + 1);
       Spectrum irradiance;
-      if (!vertex.transmits() && scattered_.lookup(vertex.position(), side_of(vertex), hit_distance,
-                                                   scratch, irradiance)) {
+      if (vertex.is_lambertian() && !vertex.transmits() && !vertex.has_relief() &&
+          scattered_.lookup(vertex.position(), side_of(vertex), since_event, scratch, irradiance)) {
         sent += vertex.diffuse_value() * irradiance;
         traced = traced & Lobes::specular;
       }
@@ -110,6 +110,7 @@ RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
       if (!survive_roulette(state, share, u_choice.y)) break;
     }
     leave(vertex, sample, sample.pdf_solid_angle, state, ray);
+    since_event = 0;
   }
   rays_.fetch_add(rays, std::memory_order_relaxed);
   return result;

@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "kaustik/irradiance/hemisphere.h"
+#include "kaustik/transport/path_class.h"
 #include "kaustik/vcm/gathering/scattered_light.h"
 
 namespace kaustik {
@@ -12,10 +13,8 @@ struct GatherInputs {
   const LightVertices& light;
   const SidedTree<LightVertexData>& focused;  ///< focused_vertices() of it
   float merge_radius_sq = 0;                  ///< of focused light at the ends of gather rays, m²
-  int maximum_events = any_events;
+  int maximum_events = any_number_of_events;
   float shrinkage = 1;  ///< of the areas of disks since the first pass
-
-  static constexpr int any_events = 1 << 20;
 };
 
 /// Light that has been scattered diffusely before it arrives at a surface, along a ray: that which

@@ -36,9 +36,10 @@ CachePoint cache_point_of(const CameraWalk& walk) {
           walk.vertex().medium_toward(normal, walk.medium())};
 }
 
-bool go_on_by_delta_lobe(CameraWalk& walk) {
+/// As often as a path would.
+bool go_on_by_delta_event(CameraWalk& walk) {
   const Vec2f u = walk.sampler().next_2d();
-  return walk.scatter(Lobes::delta, 1, walk.sampler().next_1d(), u);
+  return walk.scatter(Lobes::all, 1, walk.sampler().next_1d(), u) && walk.all_events_delta();
 }
 
 }  // namespace
@@ -70,9 +71,9 @@ std::vector<CachePoint> IndirectCache::points_of_round(int stride,
           Vec2f(float(corner.x), float(corner.y)) + numbers.next_2d() * float(stride);
       SampleSink nowhere{ComponentSet(), pass_.wavelengths};
       CameraWalk walk(in_.scene, raster, numbers, nowhere);
-      for (int i = 0; i < most_vertices && advance_to_vertex(walk); ++i) {
+      for (int i = 0; i < most_vertices && advance_to_vertex(walk, in_.maximum_events); ++i) {
         rows[row].push_back(cache_point_of(walk));
-        if (!go_on_by_delta_lobe(walk)) break;
+        if (!go_on_by_delta_event(walk)) break;
       }
     }
   });
@@ -81,10 +82,10 @@ std::vector<CachePoint> IndirectCache::points_of_round(int stride,
   return points;
 }
 
-bool IndirectCache::advance_to_vertex(CameraWalk& walk) {
+bool IndirectCache::advance_to_vertex(CameraWalk& walk, int maximum_events) {
   while (walk.events() < most_delta_events && walk.advance()) {
-    if (is_for(walk)) return true;
-    if (!go_on_by_delta_lobe(walk)) return false;
+    if (is_for(walk, maximum_events)) return true;
+    if (!go_on_by_delta_event(walk)) return false;
   }
   return false;
 }

@@ -30,14 +30,17 @@ class IndirectCache {
   void fill_round(const std::stop_token& stop);
 
   /// Whether there may ever be light for the walk's vertex: the first of its path, be it mirrored,
-  /// without relief, whose diffuse lobe sends light back alike to all sides.
-  static bool is_for(const CameraWalk& walk) {
+  /// without relief, whose diffuse lobe sends light back alike to all sides. Where the number of
+  /// events is limited it has none that is mirrored: a record knows nothing of events before it.
+  static bool is_for(const CameraWalk& walk, int maximum_events) {
     const SurfaceVertex& vertex = walk.vertex();
-    return walk.all_events_delta() && walk.gauge() < 0 && any(vertex.lobes() & Lobes::diffuse) &&
+    const bool is_first =
+        maximum_events < any_number_of_events ? walk.events() == 0 : walk.all_events_delta();
+    return is_first && walk.gauge() < 0 && any(vertex.lobes() & Lobes::diffuse) &&
            vertex.is_lambertian() && !vertex.transmits() && !vertex.has_relief();
   }
   /// Takes the walk on to such a vertex, by delta events on its way; false if it finds none.
-  static bool advance_to_vertex(CameraWalk& walk);
+  static bool advance_to_vertex(CameraWalk& walk, int maximum_events);
   /// Whether it has the light of such a vertex.
   bool serves(const CameraWalk& walk) const;
   /// Radiance that the diffuse lobe of such a vertex sends back of diffuse indirect light; false if

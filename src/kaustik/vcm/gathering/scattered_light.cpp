@@ -15,18 +15,24 @@ constexpr uint32_t least_paths_per_place = 4;
 constexpr size_t enough_places = 1 << 14;
 /// Places within a disk of the first pass, and at least.
 constexpr float first_places = 4, least_places = 1.5f;
-/// Who looks from so many radii off does not see how disks blur.
-constexpr float least_distance = 4;
+/// Who looks from so many radii off, in the first pass, does not see how disks blur.
+constexpr float first_distance = 4;
 /// What lies farther from a plane, in radii, or faces another way, is another surface.
 constexpr float most_height = 0.25f, least_cosine = 0.7f;
 /// Where vertices are farther off the middle of their disk, on average, in radii, it is not all
-/// surface: those of half a disk are 0.42 off.
+/// surface: those of half a disk are 0.42 off. Fewer vertices would be farther off by chance.
 constexpr float most_off_center = 0.3f;
+constexpr int telling_vertices = 24;
 
 bool is_same_surface(const Vec3f& offset, const CoarseNormal& side, const Vec3f& normal,
                      float radius) {
   return std::fabs(dot(offset, normal)) <= most_height * radius &&
          side.dot(normal) >= least_cosine * side.length();
+}
+
+/// As that of a thin wall.
+bool is_back(const CoarseNormal& side, const Vec3f& normal) {
+  return side.dot(normal) <= -least_cosine * side.length();
 }
 
 }  // namespace
@@ -35,6 +41,7 @@ class ScatteredLight::Builder {
  public:
   Builder(const LightVertices& light, float shrinkage, const std::stop_token& stop)
       : light_(light),
+        shrinkage_(shrinkage),
         stop_(stop),
         paths_per_place_(std::max(least_paths_per_place, uint32_t(data().size() / enough_places))),
         neighbors_(to_integer(
@@ -59,6 +66,7 @@ class ScatteredLight::Builder {
     if (stop_.stop_requested()) return;
     result.tree_ = {std::move(positions), std::move(places), stop_};
     result.radius_ = radius_;
+    result.least_distance_ = first_distance / shrinkage_ * radius_;
   }
 
  private:
@@ -69,21 +77,25 @@ class ScatteredLight::Builder {
     return (vertex.path * 0x9e3779b9u >> 8) % paths_per_place_ == 0;
   }
 
-  /// That of half of the disks that hold as many vertices as are wanted.
+  /// The median of disks around places that hold as many vertices as are wanted.
   void find_radius() {
     reaches_.assign(numbers_.size(), infinity);
+    std::vector<float> radii = reaches_;
+    const int most = std::max(neighbors_, telling_vertices);
     parallel_blocks(numbers_.size(), 256, [&](size_t begin, size_t end, size_t) {
       SidedTree<LightVertexData>::Neighbors near;
       for (size_t p = begin; p < end && !stop_.stop_requested(); ++p) {
         light_.tree.nearest(vertices().key(numbers_[p]), data()[numbers_[p]].side.unpack(), false,
-                            neighbors_ + 1, infinity, near);
-        if (near.complete()) reaches_[p] = std::sqrt(near.farthest_sq());
+                            most + 1, infinity, near);
+        if (!near.complete()) continue;
+        reaches_[p] = std::sqrt(near.farthest_sq());
+        // As if they were spread evenly.
+        radii[p] = reaches_[p] * std::sqrt(float(neighbors_) / float(most));
       }
     });
     if (numbers_.empty()) return;
-    std::vector<float> reaches = reaches_;
-    const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
-    std::nth_element(reaches.begin(), middle, reaches.end());
+    const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
     if (std::isfinite(*middle)) radius_ = *middle;
   }
 
@@ -96,30 +108,34 @@ class ScatteredLight::Builder {
     if (!std::isfinite(reach)) return place;
     const Vec3f normal = place.side.unpack();
     near.clear();
-    light_.tree.within(position, normal, false, sqr(reach),
-                       [&](uint32_t index, float) { near.push_back(index); });
+    // On whatever side: walls beside a floor are to be seen.
+    vertices().within(position, sqr(reach), [&](uint32_t index, float) { near.push_back(index); });
     Spectrum flux;
     Vec3f offsets(0, 0, 0);
+    size_t count = 0;
     for (const uint32_t index : near) {
       const LightVertexData& vertex = data()[index];
+      if (is_back(vertex.side, normal)) continue;
       const Vec3f offset = vertices().key(index) - position;
       if (!is_same_surface(offset, vertex.side, normal, reach)) return place;
       offsets += offset;
+      ++count;
       if (!vertex.specular && !tells_place(vertex) && length_sq(offset) < sqr(radius_))
         flux += vertex.flux.spectrum();
     }
-    place.is_whole = length(offsets) <= most_off_center * reach * float(near.size());
+    place.is_whole = length(offsets) <= most_off_center * reach * float(count);
     const float told_share = 1 - 1 / float(paths_per_place_);
     place.irradiance = flux * (inv_pi / (sqr(radius_) * told_share * float(light_.path_count)));
     return place;
   }
 
   const LightVertices& light_;
+  float shrinkage_;
   const std::stop_token& stop_;
   uint32_t paths_per_place_;
   int neighbors_;
   std::vector<uint32_t> numbers_;  ///< of the vertices that are places
-  std::vector<float> reaches_;     ///< of disks around them that hold so many neighbours, m
+  std::vector<float> reaches_;     ///< of disks around them that tell whether all is surface, m
   float radius_ = 0;
 };
 
@@ -130,7 +146,7 @@ ScatteredLight::ScatteredLight(const LightVertices& light, float shrinkage,
 
 bool ScatteredLight::lookup(const Vec3f& position, const Vec3f& normal, float distance,
                             Scratch& scratch, Spectrum& irradiance) const {
-  if (empty() || distance < least_distance * radius_) return false;
+  if (empty() || distance < least_distance_) return false;
   const auto borrowed = scratch.borrow<SidedTree<Place>::Neighbors>();
   SidedTree<Place>::Neighbors& near = *borrowed;
   tree_.nearest(position, normal, false, 1, radius_, near);

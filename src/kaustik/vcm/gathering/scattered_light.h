@@ -34,7 +34,8 @@ class ScatteredLight {
   };
   class Builder;
   SidedTree<Place> tree_;
-  float radius_ = 0;  ///< of disks, m
+  float radius_ = 0;          ///< of disks, m
+  float least_distance_ = 0;  ///< of who looks, m: it grows as disks shrink, so all bias vanishes
 };
 
 }  // namespace kaustik

@@ -9,7 +9,7 @@ struct CostModel {
   double merging = 2;  ///< of a vertex: finding what merges, and how far its disk is covered
   double merged_vertex = 0.01;  ///< of each light vertex that is added up there
   double light_ray = 2;         ///< of a light path, its vertices sorted and learned from
-  double gather_ray = 1.5;      ///< to fill a cache: what is gathered there merges with little
+  double gather_ray = 1.5;      ///< to fill a cache, with what is looked up where it ends
 };
 inline constexpr CostModel cost_model;
 

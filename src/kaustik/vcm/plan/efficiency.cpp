@@ -215,9 +215,8 @@ ProbeStatistics ProbeStatistics::with_cache(int gather_rays) const {
   rest.path_mean_square = ungathered.path_mean_square;
   rest.path_variance = ungathered.path_variance;
   rest.merged = ungathered.merged;
-  constexpr double worth = 2, correlation = 2;
   rest.cache_share = 1;
-  rest.cache_variance = correlation * gather_variance / (worth * gather_rays);
+  rest.cache_variance = gather_variance / gather_rays;
   return rest;
 }
 

@@ -40,11 +40,11 @@ struct ProbeStatistics {
   double gather_variance = 0;
   double cache_share = 0;     ///< 1 where a cache has that light, …
   double cache_variance = 0;  ///< … which then has this variance in a pass
-  /// What is left where records of a cache have found that light by so many gather rays each. They
+  /// What is left where records of a cache have found that light by so many gather rays each. These
   /// stratify one another, and several records are interpolated, which halves the variance. But
-  /// pixels side by side then err alike: errors count as they are after filters of 1, 3 and 9
-  /// pixels, which leave a half of such noise where they take almost all of other noise, so it
-  /// counts twice.
+  /// pixels side by side then err alike, and errors are to count as the mean of what filters of 1,
+  /// 3 and 9 pixels leave: that is about twice as much of such noise as of noise that pixels do not
+  /// share. So both factors cancel.
   ProbeStatistics with_cache(int gather_rays) const;
 
   void add(const ProbeStatistics& other, double weight);

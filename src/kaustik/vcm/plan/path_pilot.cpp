@@ -78,7 +78,7 @@ class Recorder final : public LightWeights {
     result_.ungathered.squares[bin] += rest * rest * share / paths_;
   }
   /// A cache may have the diffuse indirect light of the probed vertex.
-  void leave_to_cache() { is_for_cache_ = true; }
+  void leave_to_cache(bool is_for_it) { is_for_cache_ = is_for_it; }
   /// Light found since the last look. It counts for nothing.
   double dropped() {
     const double now = sink_.all_light();
@@ -125,7 +125,7 @@ class Recorder final : public LightWeights {
 /// Light that merges there, as what a camera path that goes on would have to find.
 void add_merged(CameraPath& path, float samples, double light_share, ProbeStatistics& result) {
   const double camera_samples = double(samples);
-  const bool is_for_cache = IndirectCache::is_for(path.walk());
+  const bool is_for_cache = IndirectCache::is_for(path.walk(), path.inputs().maximum_events);
   for (const auto& [beyond, spectrum, indirect] : path.merged_vertices()) {
     const double light = double(spectrum.sum());
     const double rest = is_for_cache ? light - double(indirect.sum()) : light;
@@ -209,6 +209,10 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
   double light_differences = 0, light_sample_rays = 0;
   double ungathered = 0, ungathered_squares = 0, gathered = 0, gathered_squares = 0;
+  // Else the sink would drop what is mirrored under its own name.
+  const bool wants_all_reflected = limits.components.has(Component::direct) &&
+                                   limits.components.has(Component::caustic) &&
+                                   limits.components.has(Component::indirect);
   for (uint32_t i = 0; i < paths; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::pilot_path, index, i);
     SampleSink sink(limits.components, {}, &scratch);
@@ -230,8 +234,8 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
       path.add_direct_light(&recorder);
       const bool was_before = path.vertices().is_at_first();
       if (was_before) {
-        walk.show_as_seen();
-        if (IndirectCache::is_for(walk)) recorder.leave_to_cache();
+        if (wants_all_reflected) walk.show_as_seen();
+        recorder.leave_to_cache(IndirectCache::is_for(walk, in.maximum_events));
         // Another sample from the same place.
         recorder.note();
         const uint64_t rays_of_path = walk.rays();

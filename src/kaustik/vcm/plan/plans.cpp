@@ -45,8 +45,8 @@ constexpr double worth_fewer = 1.25;
 constexpr double worth_caching = 1.25;
 /// Gather rays of a record in a trial.
 constexpr int trial_rays = 32;
-/// Probes by which plans are compared, at least, where there are so many.
-constexpr size_t compared_probes = 1 << 12;
+/// Probes by which plans are compared, where there are so many.
+constexpr size_t compared_probes = 1 << 13;
 constexpr float near_per_distance = 0.01746f;  // tan 1°
 
 /// Whether there is a vertex that light of a point, or of something else that is never met, has
@@ -82,12 +82,14 @@ bool is_merging_wanted(ComponentSet components) {
          components.has(Component::specular) || components.has(Component::volume);
 }
 
-/// The first of `all` and every `step`th after it.
-template <typename T>
-std::vector<T> every(size_t step, const std::vector<T>& all) {
-  std::vector<T> result;
-  result.reserve((all.size() + step - 1) / step);
-  for (size_t i = 0; i < all.size(); i += step) result.push_back(all[i]);
+/// Of so many probes, row by row, those by which plans are compared: evenly over all rows and
+/// columns, by multiples of the golden ratio.
+std::vector<size_t> compared_of(size_t probes) {
+  std::vector<size_t> result(std::min(probes, compared_probes));
+  constexpr double golden = 0.6180339887498949;
+  for (size_t i = 0; i < result.size(); ++i)
+    result[i] =
+        probes <= compared_probes ? i : size_t(std::fmod(double(i) * golden, 1.0) * double(probes));
   return result;
 }
 
@@ -212,21 +214,29 @@ std::string described(const LightGuides& guides) {
 
 }  // namespace
 
-std::vector<ProbeStatistics> VcmPilot::probes_with(const CachePlan& cache, size_t step) const {
-  std::vector<ProbeStatistics> result = every(step, probes);
-  if (cache.rounds == 0) return result;
-  const std::vector<uint8_t>& served = cache_trials[size_t(cache.rounds) - 1].served;
-  for (size_t i = 0; i < result.size(); ++i)
-    if (served[i * step]) result[i] = result[i].with_cache(cache.gather_rays);
+ProbeStatistics VcmPilot::probe_with(const CachePlan& cache, size_t probe) const {
+  if (cache.rounds == 0 || !cache_trials[size_t(cache.rounds) - 1].served[probe])
+    return probes[probe];
+  return probes[probe].with_cache(cache.gather_rays);
+}
+
+std::vector<ProbeStatistics> VcmPilot::probes_with(const CachePlan& cache) const {
+  std::vector<ProbeStatistics> result;
+  result.reserve(probes.size());
+  for (size_t i = 0; i < probes.size(); ++i) result.push_back(probe_with(cache, i));
   return result;
 }
 
 Efficiency VcmPilot::expected(const CachePlan& cache, const std::vector<MergeScale>& scales,
                               const PlanChoices& choices) const {
-  const size_t step = std::max<size_t>(1, probes.size() / compared_probes);
-  const std::vector<ProbeStatistics> compared = probes_with(cache, step);
+  std::vector<ProbeStatistics> compared;
+  std::vector<MergeScale> their_scales;
+  for (const size_t i : compared_of(probes.size())) {
+    compared.push_back(probe_with(cache, i));
+    their_scales.push_back(scales[i]);
+  }
   std::vector<PixelPlan> chosen(compared.size());
-  return choose_plans(compared, costs_with(cache), every(step, scales), choices, chosen);
+  return choose_plans(compared, costs_with(cache), their_scales, choices, chosen);
 }
 
 PassCosts VcmPilot::costs_with(const CachePlan& cache) const {
@@ -549,7 +559,8 @@ void VcmPlanner::try_cache(const GatherInputs& inputs, const PixelPlans& pixels,
         Sampler numbers = Sampler::at(0, 0, Stream::pilot_path, i, 0);
         SampleSink nowhere{ComponentSet()};
         CameraWalk walk(scene_, probes[i].raster, numbers, nowhere);
-        trial.served[i] = IndirectCache::advance_to_vertex(walk) && cache.serves(walk);
+        trial.served[i] =
+            IndirectCache::advance_to_vertex(walk, inputs.maximum_events) && cache.serves(walk);
       }
     });
     // Finer rounds cost more, and serve less.

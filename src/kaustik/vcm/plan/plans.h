@@ -31,12 +31,12 @@ struct VcmPilot {
   bool has_tried(int cache_rounds) const {
     return cache_rounds == 0 || !cache_trials[size_t(cache_rounds) - 1].served.empty();
   }
-  // Of passes that fill their cache so.
-  /// Of every `step`th probe.
-  std::vector<ProbeStatistics> probes_with(const CachePlan& cache, size_t step = 1) const;
+  /// Of a probe, of all of them, and of passes, that fill their cache so.
+  ProbeStatistics probe_with(const CachePlan& cache, size_t probe) const;
+  std::vector<ProbeStatistics> probes_with(const CachePlan& cache) const;
   PassCosts costs_with(const CachePlan& cache) const;
-  /// What choose_plans() expects, by some of the probes: enough of them to compare. `scales` by
-  /// probe.
+  /// What choose_plans() expects, by some of the probes all over the picture: enough of them to
+  /// compare. `scales` by probe.
   Efficiency expected(const CachePlan& cache, const std::vector<MergeScale>& scales,
                       const PlanChoices& choices) const;
   float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
