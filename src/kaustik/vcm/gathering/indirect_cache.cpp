@@ -15,7 +15,7 @@ constexpr float first_quality = 0.25f, first_minimum_spacing = 3, first_maximum_
 
 /// How much larger an error than in filling is allowed to who asks: else slivers between records
 /// would have other, coarser noise.
-constexpr float allowed_error = 1.4f;
+constexpr float allowed_error = 1.7f;
 /// Delta events on the way to a vertex, and vertices of a path, that ask for records.
 constexpr int most_delta_events = 16, most_vertices = 4;
 
