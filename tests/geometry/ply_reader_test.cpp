@@ -261,6 +261,34 @@ TEST(PlyReader, AllFormsAreTheSameMesh) {
 }
 
 /// Many attributes of faces times one large polygon would be many times the file.
+/// Numbers are tested several at once, and the last of a piece apart.
+TEST(PlyReader, NoNumberOfAPieceGoesUntested) {
+  const uint32_t vertices = 9, faces = 5;
+  const std::string good = written({.format = "binary_little_endian"}, vertices, faces);
+  const size_t first = good.find("end_header\n") + 11, first_face = first + 32 * vertices;
+  const auto message = [&](size_t at, auto value) {
+    std::string bytes = good;
+    std::memcpy(bytes.data() + at, &value, sizeof(value));
+    return reading_error([&] { ply(bytes); });
+  };
+  for (size_t i = 0; i < 8 * vertices; ++i) {
+    for (const float value : {std::nanf(""), -std::nanf(""), infinity, -infinity})
+      EXPECT_NE(message(first + 4 * i, value).find(fmt::format("vertex {} is not", i / 8)),
+                std::string::npos)
+          << i;
+    EXPECT_EQ(message(first + 4 * i, -std::numeric_limits<float>::max()), "");
+  }
+  for (size_t face = 0; face < faces; ++face)
+    for (size_t corner = 0; corner < 3; ++corner) {
+      const size_t at = first_face + 13 * face + 1 + 4 * corner;
+      for (const uint32_t index : {vertices, 0x7fffffffu, 0x80000000u, 0xffffffffu})
+        EXPECT_NE(message(at, index).find(fmt::format("face {} refers to vertex", face)),
+                  std::string::npos)
+            << face << ' ' << corner << ' ' << index;
+      EXPECT_EQ(message(at, vertices - 1), "");
+    }
+}
+
 TEST(PlyReader, AttributesOfFacesAreBounded) {
   const auto file = [](int attributes, int corners) {
     std::string text =

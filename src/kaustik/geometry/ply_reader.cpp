@@ -329,9 +329,7 @@ bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout&
   std::atomic<size_t> first_fault{count};  // the first of a piece that has one
   const auto read_piece = [&](size_t first, const PlyRecords& records) {
     const auto is_sound = [&](auto& vectors, const auto& properties) {
-      auto* const to = vectors.data() + first;
-      copy_vectors(records, fields_at(*fields, properties), to);
-      return are_finite(std::span<const std::remove_pointer_t<decltype(to)>>(to, records.size()));
+      return copy_vectors(records, fields_at(*fields, properties), vectors.data() + first);
     };
     bool sound = is_sound(mesh_.positions, layout.position);
     if (layout.has_normals) sound &= is_sound(mesh_.normals, layout.normal);

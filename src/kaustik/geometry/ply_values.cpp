@@ -16,19 +16,54 @@ Number loaded(const uint8_t* bytes, bool big_endian) {
   return std::bit_cast<Number>(raw);
 }
 
+/// Four numbers in one register.
+using FourNumbers = uint32_t __attribute__((vector_size(16)));
+
+/// Copies three numbers that begin at `first` bytes of each record. Returns `test` of all of them,
+/// lane by lane, or-ed together; of the fourth lane it says nothing.
+template <typename Test>
+FourNumbers copy_threes(const PlyRecords& records, size_t first, void* to, const Test& test) {
+  constexpr size_t three = 3 * sizeof(uint32_t);
+  const size_t size = records.size();
+  FourNumbers found{};
+  if (size == 0) return found;
+  const uint8_t* from = records.bytes.data() + first;
+  auto* out = static_cast<uint8_t*>(to);
+  // A fourth number is read and written with them, but not with the last ones: what lies behind
+  // those is not ours.
+  for (size_t i = 0; i + 1 < size; ++i, from += records.record_bytes, out += three) {
+    FourNumbers lanes;
+    std::memcpy(&lanes, from, sizeof(lanes));
+    std::memcpy(out, &lanes, sizeof(lanes));
+    found |= test(lanes);
+  }
+  FourNumbers last{};
+  std::memcpy(&last, from, three);
+  std::memcpy(out, &last, three);
+  return found | test(last);
+}
+
+/// The sign bit of the result tells that the float with these bits is not finite.
+template <typename Bits>
+Bits signs_of_infinity(Bits bits, Bits one_exponent, Bits all_exponents) {
+  return (bits & all_exponents) + one_exponent;
+}
+constexpr uint32_t exponent_one = 0x00800000, exponent_all = 0x7f800000, sign_bit = 0x80000000;
+
 /// Where the length is a byte, and the numbers are what they become.
 bool copy_plain_corners(const PlyRecords& records, size_t length_offset, uint64_t vertices,
                         std::array<uint32_t, 3>* to) {
-  const uint8_t* from = records.bytes.data() + length_offset;
-  uint32_t largest[3] = {0, 0, 0};
+  if (vertices == 0) return records.size() == 0;
   uint8_t differences = 0;
-  for (size_t i = 0; i < records.size(); ++i, from += records.record_bytes) {
-    std::array<uint32_t, 3>& corners = to[i];
-    differences |= *from ^ uint8_t(3);
-    std::memcpy(corners.data(), from + 1, sizeof(corners));
-    for (size_t k = 0; k < 3; ++k) largest[k] = std::max(largest[k], corners[k]);
-  }
-  return differences == 0 && std::max({largest[0], largest[1], largest[2]}) < vertices;
+  const uint8_t* length = records.bytes.data() + length_offset;
+  for (size_t i = 0; i < records.size(); ++i, length += records.record_bytes)
+    differences |= *length ^ uint8_t(3);
+  const auto last = uint32_t(std::min<uint64_t>(vertices - 1, UINT32_MAX));
+  const FourNumbers lasts{last, last, last, last};
+  const FourNumbers outside = copy_threes(records, length_offset + 1, to, [&](FourNumbers lanes) {
+    return FourNumbers(lanes > lasts);
+  });
+  return differences == 0 && (outside[0] | outside[1] | outside[2]) == 0;
 }
 
 }  // namespace
@@ -76,6 +111,27 @@ double value_at(const uint8_t* bytes, PlyType type, bool big_endian) {
       return loaded<double>(bytes, big_endian);
   }
   return 0;
+}
+
+bool copy_plain_vectors(const PlyRecords& records, size_t first, size_t width, void* to) {
+  if (width == 3) {
+    const FourNumbers one{exponent_one, exponent_one, exponent_one, exponent_one};
+    const FourNumbers all{exponent_all, exponent_all, exponent_all, exponent_all};
+    const FourNumbers found = copy_threes(
+        records, first, to, [&](FourNumbers lanes) { return signs_of_infinity(lanes, one, all); });
+    return ((found[0] | found[1] | found[2]) & sign_bit) == 0;
+  }
+  const auto twice = [](uint32_t bits) { return uint64_t(bits) << 32 | bits; };
+  const uint8_t* from = records.bytes.data() + first;
+  auto* out = static_cast<uint8_t*>(to);
+  uint64_t found = 0;
+  for (size_t i = 0; i < records.size(); ++i, from += records.record_bytes, out += 8) {
+    uint64_t two;
+    std::memcpy(&two, from, sizeof(two));
+    std::memcpy(out, &two, sizeof(two));
+    found |= signs_of_infinity(two, twice(exponent_one), twice(exponent_all));
+  }
+  return (found & twice(sign_bit)) == 0;
 }
 
 bool copy_corners(const PlyRecords& records, const PlyField& length, PlyType index,

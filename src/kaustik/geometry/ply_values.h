@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/shape.h"
 
 namespace kaustik {
@@ -39,9 +40,14 @@ struct PlyField {
   PlyType type = PlyType::float32;
 };
 
-/// Copies a vector of each record, whose numbers are `fields`.
+/// Copies `width` floats, 2 or 3, that begin at `first` bytes of each record and are what they
+/// become. False, with all of them copied: one is not finite.
+bool copy_plain_vectors(const PlyRecords& records, size_t first, size_t width, void* to);
+
+/// Copies a vector of each record, whose numbers are `fields`. False, with all of them copied: one
+/// is not finite.
 template <typename Vector, size_t count>
-void copy_vectors(const PlyRecords& records, const std::array<PlyField, count>& fields,
+bool copy_vectors(const PlyRecords& records, const std::array<PlyField, count>& fields,
                   Vector* to) {
   static_assert(sizeof(Vector) == count * sizeof(float));
   // Mostly they are what they become.
@@ -50,16 +56,12 @@ void copy_vectors(const PlyRecords& records, const std::array<PlyField, count>& 
     as_it_is = as_it_is && fields[k].type == PlyType::float32 &&
                fields[k].offset == fields[0].offset + k * sizeof(float);
   const size_t size = records.size();
-  if (as_it_is) {
-    const uint8_t* from = records.bytes.data() + fields[0].offset;
-    for (size_t i = 0; i < size; ++i, from += records.record_bytes)
-      std::memcpy(static_cast<void*>(&to[i]), from, sizeof(Vector));
-    return;
-  }
+  if (as_it_is) return copy_plain_vectors(records, fields[0].offset, count, to);
   for (size_t i = 0; i < size; ++i)
     for (size_t k = 0; k < count; ++k)
       to[i][int(k)] =
           float(value_at(records[i] + fields[k].offset, fields[k].type, records.big_endian));
+  return are_finite(std::span<const Vector>(to, size));
 }
 
 /// Copies the corners of triangles, which are a list of three numbers of each record. False, with
