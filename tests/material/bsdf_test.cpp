@@ -342,8 +342,14 @@ TEST_P(EveryBsdf, values_are_what_is_asked_for_one_by_one) {
       const Vec3f anywhere = square_to_sphere(sampler.next_2d());
       const float u_lobe = sampler.next_1d();
       const BsdfSample s = bsdf().sample({}, wo, u_lobe, sampler.next_2d(), Lobes::all);
-      for (const Vec3f& wi : {anywhere, s.event == Lobes::none ? anywhere : s.wi}) {
+      const std::array both{anywhere, s.event == Lobes::none ? anywhere : s.wi};
+      std::array written_over = both;
+      std::array<BsdfValues, 2> at_once;
+      bsdf().all_values({}, wo, written_over, at_once);
+      for (size_t k = 0; k < both.size(); ++k) {
+        const Vec3f& wi = both[k];
         const BsdfValues values = bsdf().values({}, wo, wi);
+        ASSERT_EQ(at_once[k], values);
         for (int lane = 0; lane < 4; ++lane) {
           ASSERT_PRED2(near, values.diffuse[lane], bsdf().eval({}, wo, wi, Lobes::diffuse)[lane]);
           ASSERT_PRED2(near, values.glossy[lane], bsdf().eval({}, wo, wi, Lobes::glossy)[lane]);

@@ -135,6 +135,42 @@ TEST(PathWeights, SumToOne) {
   EXPECT_GT(found_in_several_ways, 10'000);
 }
 
+/// What merges weighs the same by what is known of the light path beforehand.
+TEST(PathWeights, LightTailsTellTheRest) {
+  std::mt19937 random(7);
+  int compared = 0, with_later_merges = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const PathWeights weights(settings_of(16 | (random() % 16), random));
+    const WholePath path =
+        random_path(random, 3 + random() % 6, i % 3 == 0 ? 0.0 : 0.3, i % 2 == 0 ? 0.0 : 0.3);
+    const size_t n = path.vertices.size(), t = 1 + random() % (n - 2);
+    if (path.vertices[t - 1].delta || path.vertices[t - 1].mean_free_path > 0) continue;
+    Halves halves(path, t, weights);
+    const float expected = weights.merge(halves.halves);
+    const float to_previous = 0.1f + float(i % 7);
+    PathHalves known;
+    const PathVertex any_vertex{};
+    known.camera = {&any_vertex, 1};
+    known.light = halves.light;
+    known.pdf_light_last = halves.halves.pdf_light_last;
+    known.pdf_camera_last = to_previous;
+    known.pdf_camera_before_last = halves.halves.pdf_camera_before_last;
+    known.pdf_next_event = path.pdf_next_event;
+    std::vector<PathWeights::LaterMerge> merges(3);  // of others
+    const PathWeights::LightTail tail = weights.light_tail(known, merges);
+    ASSERT_EQ(tail.merges, 3u);
+    ASSERT_EQ(tail.merges + tail.count, merges.size());
+    halves.halves.pdf_camera_before_last = halves.halves.pdf_next_event = -1;
+    const float found =
+        weights.merge(halves.halves, tail, std::span(merges).subspan(tail.merges, tail.count));
+    ASSERT_NEAR(found, expected, 1e-4f * expected) << n << " vertices, " << t;
+    ++compared;
+    if (tail.count > 0 && expected > 0) ++with_later_merges;
+  }
+  EXPECT_GT(compared, 8'000);
+  EXPECT_GT(with_later_merges, 3'000);
+}
+
 /// A technique that takes another radius for granted than the others weighs otherwise.
 TEST(PathWeights, NoticeAnotherRadius) {
   std::mt19937 random(2);

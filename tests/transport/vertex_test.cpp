@@ -204,6 +204,14 @@ TEST(SurfaceVertex, ValuesAreWhatIsAskedForOneByOne) {
           vertex_seen_from(*scene, upward(sampler), TransportMode::radiance);
       const Vec3f wi = square_to_sphere(sampler.next_2d());
       const BsdfValues values = vertex.values(wi);
+      std::vector<Vec3f> many(100, wi);
+      many[99] = -wi;
+      std::vector<BsdfValues> at_once(1);
+      vertex.values(many, at_once);
+      ASSERT_EQ(at_once.size(), 100u);
+      EXPECT_EQ(at_once[0], values);
+      EXPECT_EQ(at_once[98], values);
+      EXPECT_EQ(at_once[99], vertex.values(-wi));
       for (int lane = 0; lane < 4; ++lane)
         for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
           EXPECT_NEAR(values.of(lobe)[lane], vertex.eval(wi, lobe)[lane], 1e-6);

@@ -21,6 +21,10 @@ class BentBsdf final : public Bsdf {
   BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
     return nested_->values(context, wo, wi);
   }
+  void all_values(const BsdfContext& context, const Vec3f& wo, std::span<Vec3f> wi,
+                  std::span<BsdfValues> result) const override {
+    nested_->all_values(context, wo, wi, result);
+  }
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
     return nested_->sample(context, wo, u_lobe, u, lobes);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -148,6 +149,7 @@ struct BsdfValues {
   Spectrum diffuse, glossy;
   float pdf = 0, pdf_reverse = 0;
 
+  friend bool operator==(const BsdfValues&, const BsdfValues&) = default;
   /// Of one of the two lobes.
   const Spectrum& of(Lobes lobe) const { return lobe == Lobes::diffuse ? diffuse : glossy; }
 };
@@ -177,6 +179,12 @@ class Bsdf {
   virtual BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const {
     return {eval(context, wo, wi, Lobes::diffuse), eval(context, wo, wi, Lobes::glossy),
             pdf(context, wo, wi, Lobes::all), pdf(context, wi, wo, Lobes::all)};
+  }
+  /// The same of many directions, one after the other; `wi` may be written over. Worth its own code
+  /// where something is the same for all.
+  virtual void all_values(const BsdfContext& context, const Vec3f& wo, std::span<Vec3f> wi,
+                          std::span<BsdfValues> result) const {
+    for (size_t i = 0; i < wi.size(); ++i) result[i] = values(context, wo, wi[i]);
   }
   /// `u_lobe` chooses the lobe, `u` the direction. A weight of zero means absorbed.
   virtual BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe,

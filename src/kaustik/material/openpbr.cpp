@@ -52,6 +52,12 @@ class OpenPbr final : public Bsdf {
   BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
     return answer(context, parameters_.at(context), wo, wi, Lobes::all, Densities::both);
   }
+  void all_values(const BsdfContext& context, const Vec3f& wo, std::span<Vec3f> wi,
+                  std::span<BsdfValues> result) const override {
+    const OpenPbrLook look = parameters_.at(context);
+    for (size_t i = 0; i < wi.size(); ++i)
+      result[i] = answer(context, look, wo, wi[i], Lobes::all, Densities::both);
+  }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {

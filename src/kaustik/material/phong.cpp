@@ -32,7 +32,9 @@ constexpr float largest_exponent = 1e5f;
 /// cosⁿα from the distance to the lobe's middle, which keeps its precision at high exponents.
 float cos_power(const Vec3f& middle, const Vec3f& wi, float exponent) {
   const float half_distance_sq = 0.5f * length_sq(wi - middle);
-  if (half_distance_sq >= 1) return 0;
+  // Far below the least float: libm takes its time there.
+  constexpr float least_log = 90;
+  if (half_distance_sq >= 1 || exponent * half_distance_sq > least_log) return 0;
   return std::exp(exponent * std::log1p(-half_distance_sq));
 }
 
@@ -84,12 +86,13 @@ class Phong final : public Bsdf {
   }
 
   BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
-    if (!is_possible(wo, wi)) return {};
+    return values_by(factors(context, Lobes::all), wo, wi);
+  }
+
+  void all_values(const BsdfContext& context, const Vec3f& wo, std::span<Vec3f> wi,
+                  std::span<BsdfValues> result) const override {
     const Factors k = factors(context, Lobes::all);
-    const bool through = wo.z * wi.z < 0;
-    const float power = power_of(k, wo, wi);  // the same both ways
-    const Parts f = parts_of(k, through, power);
-    return {f.diffuse, f.glossy, pdf_of(k, through, wi.z, power), pdf_of(k, through, wo.z, power)};
+    for (size_t i = 0; i < wi.size(); ++i) result[i] = values_by(k, wo, wi[i]);
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
@@ -168,6 +171,14 @@ class Phong final : public Bsdf {
     if (total > 0)
       for (float& chance : k.chance) chance /= total;
     return k;
+  }
+
+  BsdfValues values_by(const Factors& k, const Vec3f& wo, const Vec3f& wi) const {
+    if (!is_possible(wo, wi)) return {};
+    const bool through = wo.z * wi.z < 0;
+    const float power = power_of(k, wo, wi);  // the same both ways
+    const Parts f = parts_of(k, through, power);
+    return {f.diffuse, f.glossy, pdf_of(k, through, wi.z, power), pdf_of(k, through, wo.z, power)};
   }
 
   static Vec3f propose(int proposal, const Vec3f& wo, float exponent, const Vec2f& u) {

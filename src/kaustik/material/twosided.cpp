@@ -54,6 +54,13 @@ class Twosided final : public Bsdf {
                      : back_->values(context, mirrored(wo), mirrored(wi));
   }
 
+  void all_values(const BsdfContext& context, const Vec3f& wo, std::span<Vec3f> wi,
+                  std::span<BsdfValues> result) const override {
+    if (wo.z >= 0) return front_->all_values(context, wo, wi, result);
+    for (Vec3f& w : wi) w = mirrored(w);
+    back_->all_values(context, mirrored(wo), wi, result);
+  }
+
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
     if (wo.z >= 0) return front_->sample(context, wo, u_lobe, u, lobes);

@@ -173,6 +173,55 @@ bool PathWeights::merges_at(std::span<const PathVertex> camera) const {
   return first == camera.size() || camera.back().spread >= settings_.least_spread;
 }
 
+PathWeights::LightTail PathWeights::light_tail(const PathHalves& path,
+                                               std::vector<LaterMerge>& merges) const {
+  const View view(settings_, path, View::Meeting::at_last);
+  const size_t t = view.t(), n = view.n();
+  LightTail tail{.pdf_light = view.pdf_light(t),
+                 .to_previous = path.pdf_camera_last,
+                 .spread_length = 1,
+                 .merges = uint32_t(merges.size())};
+  const float density = tail.pdf_light * settings_.light_paths * unit_area();
+  if (!(density > 0)) return tail;
+  if (const float length = view.vertex(t + 1).mean_free_path; length > 0)
+    tail.spread_length = length;
+  float ratio = 1 / density, spread = 1;
+  for (size_t i = t + 1; i <= n; ++i) {
+    ratio *= view.pdf_camera(i) / view.pdf_light(i);
+    if (!(ratio > 0)) break;
+    if (i > t + 1)
+      spread = spread_after(spread, view.pdf_camera(i), view.vertex(i), view.is_delta(i - 1));
+    const float merge = view.merge(ratio, i, std::max(spread, settings_.least_spread));
+    tail.square += squares_at(view, i, ratio, -1);
+    if (merge > 0) merges.push_back({sqr(merge), spread});
+  }
+  tail.count = uint32_t(merges.size()) - tail.merges;
+  return tail;
+}
+
+float PathWeights::merge(const PathHalves& path, const LightTail& tail,
+                         std::span<const LaterMerge> merges) const {
+  const View view(settings_, path, View::Meeting::at_last);
+  const size_t t = view.t();
+  const float spread = view.camera_spread(t), own_density = view.merge(1, t, spread);
+  if (!(own_density > 0)) return 0;
+  const float scale = 1 / own_density;
+  float beyond = tail.square;
+  float spread_beyond = spread * accepted(path.pdf_camera_last * tail.spread_length);
+  for (const LaterMerge& merge : merges) {
+    if (spread_beyond * merge.spread < settings_.least_spread) break;
+    beyond += merge.square;
+  }
+  // reach() of the first vertex beyond, per solid angle, and from merging on unit_area() to here.
+  const float on_beyond = tail.to_previous > 0
+                              ? view.reach(t + 1) / tail.to_previous * scale * tail.pdf_light *
+                                    settings_.light_paths * unit_area()
+                              : 0.0f;
+  const float sum =
+      squares_at(view, t, scale, spread) + beyond * sqr(on_beyond) + squares_before(view, scale);
+  return sum > 0 ? 1 / sum : 0.0f;
+}
+
 float PathWeights::unidirectional(const PathHalves& path) const {
   const View view(settings_, path, View::Meeting::between);
   return weight(view, view.unidirectional(1));

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace kaustik {
 
@@ -110,6 +112,30 @@ class PathWeights {
   /// Squared densities of all that camera paths find by going on from there, relative to that of
   /// merge().
   float beyond_merge(const PathHalves& path) const;
+
+  /// What merge() takes from the light path alone, whatever surface its vertex merges with.
+  struct LightTail {
+    float pdf_light = 0;    ///< of the vertex that merges …
+    float to_previous = 0;  ///< … see PathVertex
+    /// Squared densities of what paths find by going on from there without merging: for a density
+    /// of 1 per solid angle to do so, relative to merging on unit_area().
+    float square = 0;
+    float spread_length = 1;  ///< mean free path of the vertex before, m; 1: it is on a surface
+    uint32_t merges = 0;      ///< of the LaterMerge …
+    uint32_t count = 0;       ///< … those from there on
+  };
+  /// The same of merging at one vertex beyond.
+  struct LaterMerge {
+    float square = 0;
+    float spread = 1;  ///< at that vertex, relative to the spread at the first one beyond
+  };
+  /// `path`: as for merge(), with any one vertex as the camera half; pdf_camera_last for a density
+  /// of 1 per solid angle. Adds what is merged beyond, from the vertex on.
+  LightTail light_tail(const PathHalves& path, std::vector<LaterMerge>& merges) const;
+  /// The same as merge(path), from what is known of the light path: of its vertices only the number
+  /// matters, and pdf_camera_before_last does not. `merges` are those of the tail.
+  float merge(const PathHalves& path, const LightTail& tail,
+              std::span<const LaterMerge> merges) const;
 
   /// What the weight of merging at a matt first vertex takes from the light path alone: squared
   /// densities relative to merging on unit_area(), so that they are of no scale.

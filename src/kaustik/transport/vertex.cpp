@@ -177,6 +177,23 @@ BsdfValues SurfaceVertex::values(const Vec3f& wi) const {
   return bsdf_->values(context_, wo_local_, wi_local);
 }
 
+void SurfaceVertex::values(std::span<const Vec3f> wi, std::vector<BsdfValues>& result) const {
+  // A few at a time, which need no memory.
+  constexpr size_t some = 64;
+  std::array<Vec3f, some> local;
+  result.resize(wi.size());
+  for (size_t begin = 0; begin < wi.size(); begin += some) {
+    const size_t count = std::min(some, wi.size() - begin);
+    for (size_t i = 0; i < count; ++i) local[i] = frame_.to_local(wi[begin + i]);
+    std::array<bool, some> agrees;
+    for (size_t i = 0; i < count; ++i) agrees[i] = sides_agree(wi[begin + i], local[i]);
+    bsdf_->all_values(context_, wo_local_, std::span(local).first(count),
+                      std::span(result).subspan(begin, count));
+    for (size_t i = 0; i < count; ++i)
+      if (!agrees[i]) result[begin + i] = {};
+  }
+}
+
 BsdfSample SurfaceVertex::sample(float u_lobe, const Vec2f& u, Lobes lobes) const {
   BsdfSample result = bsdf_->sample(context_, wo_local_, u_lobe, u, lobes);
   if (result.event == Lobes::none) return result;

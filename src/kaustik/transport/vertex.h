@@ -1,4 +1,7 @@
 #pragma once
+#include <span>
+#include <vector>
+
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/path_state.h"
 
@@ -105,6 +108,8 @@ class SurfaceVertex {
   float pdf_reverse(const Vec3f& wi, Lobes lobes) const;
   /// eval() of both lobes, pdf() and pdf_reverse() at once.
   BsdfValues values(const Vec3f& wi) const;
+  /// The same of many directions, one after the other.
+  void values(std::span<const Vec3f> wi, std::vector<BsdfValues>& result) const;
   /// wi of the result is in world space; the weight holds the same factors as eval_cosine.
   BsdfSample sample(float u_lobe, const Vec2f& u, Lobes lobes) const;
   Spectrum albedo(Lobes lobes) const { return bsdf_->albedo(context_, wo_local_, lobes); }

@@ -67,7 +67,10 @@ void VcmPass::trace_light(const LightPathAims& aims, SplatBuffer& splats, std::s
        .remembers_scattering = plans_->guides.scattering != nullptr,
        .gauges = gauges_.empty() ? nullptr : &gauges_},
       pass_, Stream::light_path, splats, stop, progress, report);
-  if (plans_->techniques.merging) matt_ = MattMerging(light_, weights_, stop);
+  if (plans_->techniques.merging) {
+    matt_ = MattMerging(light_, weights_, stop);
+    tails_ = LightTails(light_, weights_, stop);
+  }
   if (plans_->cache.rounds > 0 && aims.cache && !stop.stop_requested()) fill_cache(stop, report);
   connection_scale_ = float(double(light_.connectible.size()) /
                             (double(settings_.connections) * double(light_.connectible_paths())));
@@ -100,6 +103,7 @@ void VcmPass::sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) co
                      .light = light_,
                      .matt = matt_,
                      .focused_matt = cache_ ? &focused_matt_ : nullptr,
+                     .tails = &tails_,
                      .seen = plans_->pixels.seen(),
                      // On average: what all weights go by, so those of all ways of finding a path
                      // still sum to 1 where a pixel gets more or fewer.

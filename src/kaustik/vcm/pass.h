@@ -4,6 +4,7 @@
 #include "kaustik/transport/integrator.h"
 #include "kaustik/vcm/gathering/indirect_cache.h"
 #include "kaustik/vcm/light_vertices.h"
+#include "kaustik/vcm/merging/light_tails.h"
 #include "kaustik/vcm/merging/matt_merging.h"
 #include "kaustik/vcm/merging/medium_disks.h"
 #include "kaustik/vcm/plan/plans.h"
@@ -57,6 +58,7 @@ class VcmPass {
   GaugeDisks gauges_;
   LightVertices light_;
   MattMerging matt_;
+  LightTails tails_;
   SidedTree<LightVertexData> focused_;    ///< focused_vertices() of it, if there is a cache, …
   MattMerging focused_matt_;              ///< … and merging with them
   std::unique_ptr<IndirectCache> cache_;  ///< null: there is none

@@ -3,6 +3,7 @@
 #include "kaustik/vcm/gathering/indirect_cache.h"
 #include "kaustik/vcm/lessons/light_path_emission.h"
 #include "kaustik/vcm/light_vertices.h"
+#include "kaustik/vcm/merging/light_tails.h"
 #include "kaustik/vcm/merging/matt_merging.h"
 #include "kaustik/vcm/merging/medium_disks.h"
 #include "kaustik/vcm/plan/pixel_plans.h"
@@ -18,6 +19,7 @@ struct CameraPathInputs {
   const MattMerging& matt;
   /// Of focused_vertices() alone, for where nothing else merges; null: `matt` tells them apart.
   const MattMerging* focused_matt = nullptr;
+  const LightTails* tails = nullptr;  ///< null: weights go along the light paths themselves
   const SeenSurfaces& seen;
   float camera_samples = 1;    ///< per pixel
   float connection_scale = 0;  ///< of a connected vertex: vertices over paths and connections

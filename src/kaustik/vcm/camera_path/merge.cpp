@@ -262,47 +262,73 @@ void SurfaceMerging::visit_at_gauge(float radius, uint32_t most_parts, const Vis
   }
 }
 
-template <typename Visit>
-void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
-                                   const Visit& visit) const {
+size_t SurfaceMerging::find_near(const MergeDisk& disk, uint32_t most_parts,
+                                 std::vector<Near>& near) const {
   const SurfaceVertex& vertex = walk_.vertex();
   const bool both_sides = disk.both_sides();
   const Vec3f& ng = vertex.point().ng;
   const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
   const auto& tree = in_.light.tree.tree();
   const auto list = scratch_.list<uint32_t>();
-  std::vector<uint32_t>& near = *list;
+  std::vector<uint32_t>& numbers = *list;
   in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
-                        [&](uint32_t index, float) { near.push_back(index); });
+                        [&](uint32_t number, float) { numbers.push_back(number); });
   // Neighbours in the tree are neighbours in the disk: one in so many is spread over it.
-  const auto [first, parts] = part_of(near.size(), most_parts);
-  // Paths lie anywhere in memory: waiting for one after the other took half the time.
-  for (size_t i = first; i < near.size(); i += parts) {
-    const LightVertexData& photon = tree.data(near[i]);
-    const PathVertex* before = in_.light.vertices.data() + photon.path;
-    prefetch(before);
-    prefetch(before + photon.before);
-  }
-  PathHalves path = vertices_.halves();
-  for (size_t i = first; i < near.size(); i += parts) {
-    const uint32_t index = near[i];
-    const LightVertexData& photon = tree.data(index);
-    const Vec3f offset = tree.key(index) - vertex.position();
+  const auto [first, parts] = part_of(numbers.size(), most_parts);
+  for (size_t i = first; i < numbers.size(); i += parts) {
+    const LightVertexData& photon = tree.data(numbers[i]);
+    const Vec3f offset = tree.key(numbers[i]) - vertex.position();
     const float cover = disk.share(offset, photon.side);
-    if (!(cover > 0)) continue;
-    if (walk_.events() + int(photon.before) > in_.maximum_events) continue;
-    const Vec3f wi = photon.direction.unpack();
-    const BsdfValues bsdf = vertex.values(wi);
-    const PathVertex* before = in_.light.vertices.data() + photon.path;
-    const PathVertex& merged = before[photon.before];
-    path.light = {before, photon.before};
-    path.pdf_light_last = merged.pdf_light;
-    path.pdf_light_before_last = vertices_.pdf_light_before(wi, bsdf.pdf_reverse);
-    path.pdf_camera_last = bsdf.pdf * merged.to_previous;
-    path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
-    path.pdf_next_event = photon.pdf_next_event;
-    visit(photon, photon.flux.spectrum() * (cover * float(parts)), offset, wi, bsdf, path);
+    if (cover > 0 && walk_.events() + int(photon.before) <= in_.maximum_events)
+      near.push_back({numbers[i], cover, offset});
   }
+  return parts;
+}
+
+template <typename Visit>
+void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
+                                   const Visit& visit) const {
+  const auto near_list = scratch_.list<Near>();
+  const auto directions = scratch_.list<Vec3f>();
+  const auto values = scratch_.list<BsdfValues>();
+  const size_t parts = find_near(disk, most_parts, *near_list);
+  const auto& tree = in_.light.tree.tree();
+  for (const Near& near : *near_list)
+    directions->push_back(tree.data(near.number).direction.unpack());
+  walk_.vertex().values(*directions, *values);
+  // Paths lie anywhere in memory: waiting for one after the other took half the time.
+  if (!in_.tails)
+    for (const Near& near : *near_list) {
+      const LightVertexData& photon = tree.data(near.number);
+      prefetch(in_.light.vertices.data() + photon.path);
+      prefetch(&in_.light.at(photon));
+    }
+  PathHalves path = vertices_.halves();
+  for (size_t i = 0; i < near_list->size(); ++i) {
+    const Near& near = (*near_list)[i];
+    const LightVertexData& photon = tree.data(near.number);
+    const Vec3f& wi = (*directions)[i];
+    const BsdfValues& bsdf = (*values)[i];
+    path.light = in_.light.before(photon);
+    path.pdf_light_before_last = vertices_.pdf_light_before(wi, bsdf.pdf_reverse);
+    if (in_.tails) {
+      const PathWeights::LightTail& tail = (*in_.tails)[near.number];
+      path.pdf_light_last = tail.pdf_light;
+      path.pdf_camera_last = bsdf.pdf * tail.to_previous;
+    } else {
+      const PathVertex& merged = in_.light.at(photon);
+      path.pdf_light_last = merged.pdf_light;
+      path.pdf_camera_last = bsdf.pdf * merged.to_previous;
+      path.pdf_camera_before_last = path.light[path.light.size() - 2].pdf_camera;
+      path.pdf_next_event = photon.pdf_next_event;
+    }
+    visit(near, photon, photon.flux.spectrum() * (near.cover * float(parts)), wi, bsdf, path);
+  }
+}
+
+float SurfaceMerging::weight_of(const Near& near, const PathHalves& path) const {
+  if (!in_.tails) return in_.weights.merge(path);
+  return in_.weights.merge(path, (*in_.tails)[near.number], in_.tails->merges(near.number));
 }
 
 SurfaceMerging::MergedLight SurfaceMerging::merged(const MergeDisk& disk,
@@ -315,10 +341,11 @@ SurfaceMerging::MergedLight SurfaceMerging::merged(const MergeDisk& disk,
   const uint32_t most_parts =
       vertices_.is_at_first() ? uint32_t(std::max(1.0f, in_.camera_samples)) : 1;
   visit_merging(disk, most_parts,
-                [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
+                [&](const Near& near, const LightVertexData& photon, const Spectrum& flux,
                     const Vec3f& wi, const BsdfValues& bsdf, const PathHalves& path) {
+                  const Vec3f& offset = near.offset;
                   if (!weights.bounds.edges.hold(offset)) return;
-                  const float weight = in_.weights.merge(path);
+                  const float weight = weight_of(near, path);
                   if (!(weight > 0)) return;
                   const Spectrum arriving =
                       flux * (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
@@ -360,9 +387,9 @@ std::vector<SurfaceMerging::MergedVertex> SurfaceMerging::merged_vertices() cons
   }
   const MergeDisk disk(vertex, radius);
   visit_merging(disk, 1,
-                [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
+                [&](const Near& near, const LightVertexData& photon, const Spectrum& flux,
                     const Vec3f& wi, const BsdfValues& bsdf, const PathHalves& path) {
-                  const float distance_sq = length_sq(offset);
+                  const float distance_sq = length_sq(near.offset);
                   const float kernel = 2 * (1 - distance_sq / sqr(radius)) /
                                        (pi * sqr(radius) * float(in_.light.path_count));
                   const float factor =

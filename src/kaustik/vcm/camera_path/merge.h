@@ -90,11 +90,20 @@ class SurfaceMerging {
     size_t first, step;
   };
   Part part_of(size_t vertices, uint32_t most_parts) const;
-  /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to
-  /// where it comes from, bsdf, path) for all that merge; where they are many, for one of
-  /// `most_parts` parts of them at most, which is drawn and counts for all.
+  /// A light vertex in the disk.
+  struct Near {
+    uint32_t number;
+    float cover;   ///< MergeDisk::share()
+    Vec3f offset;  ///< from the vertex
+  };
+  /// All that merge but for their weights; where they are many, one of `most_parts` parts of them
+  /// at most, which is drawn. Returns how many parts there are.
+  size_t find_near(const MergeDisk& disk, uint32_t most_parts, std::vector<Near>& near) const;
+  /// visit(near, vertex, its flux as far as it counts, direction to where it comes from, bsdf,
+  /// path) for what find_near() finds, which counts for all.
   template <typename Visit>
   void visit_merging(const MergeDisk& disk, uint32_t most_parts, const Visit& visit) const;
+  float weight_of(const Near& near, const PathHalves& path) const;
 
   const CameraPathInputs& in_;
   const CameraVertices& vertices_;

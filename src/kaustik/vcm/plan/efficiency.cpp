@@ -87,7 +87,11 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
     result.squared_error[i] = variance(probe, kappa, scale) * relative;
   }
   const double direct = probe.direct_variance / costs.camera_samples;
-  const double light_sample = probe.light_sample_variance / costs.camera_samples;
+  // What stratification takes off, it is taken to take off all parts of it.
+  const double stratified = probe.single_direct_variance > probe.direct_variance
+                                ? probe.direct_variance / probe.single_direct_variance
+                                : 1.0;
+  const double light_sample = stratified * probe.light_sample_variance / costs.camera_samples;
   result.constant = (direct + probe.cache_variance) * relative;
   result.light_sample = std::min(direct, light_sample) * relative;
   result.rays = probe.rays + rays_to_merge(probe, scale);
@@ -191,6 +195,7 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   path_mean_square += weight * other.path_mean_square;
   path_variance += weight * other.path_variance;
   direct_variance += weight * other.direct_variance;
+  single_direct_variance += weight * other.single_direct_variance;
   light_sample_variance += weight * other.light_sample_variance;
   radiance += weight * other.radiance;
   merged += weight * other.merged;

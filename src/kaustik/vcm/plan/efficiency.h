@@ -19,10 +19,12 @@ struct ProbeStatistics {
   double merged_alone = 0;                         ///< ∫ f²/m where no camera path goes
   double path_mean_square = 0, path_variance = 0;  ///< of what a camera path finds, but for what
                                                    ///< merging finds far more often
-  double direct_variance = 0;                      ///< of direct light in a camera sample that
-                                                   ///< samples one light at the vertex, with the
-                                                   ///< lamp that the path meets next …
-  /// The part of direct_variance that falls as 1/n where n lights are sampled at the vertex.
+  /// Of direct light by camera samples that sample one light at the vertex, with the lamp that the
+  /// path meets next: the variance of the mean of a pass's samples of a pixel, times their number.
+  /// They stratify one another, …
+  double direct_variance = 0;
+  double single_direct_variance = 0;  ///< … that of one alone is larger …
+  /// …, and this is the part of the latter that falls as 1/n where n lights are sampled there.
   double light_sample_variance = 0;
   double radiance = 0;     ///< of everything
   double merged = 0;       ///< light vertices of a pass within the disk

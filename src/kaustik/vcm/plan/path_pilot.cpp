@@ -193,6 +193,37 @@ double variance_of(double sum, double squares, double count) {
   return std::max(0.0, squares - sum * sum / count) / (count - 1);
 }
 
+/// Variance of values one by one, and in runs as long as a pass has samples of a pixel. Numbers of
+/// the sampler stratify one another within a run: the mean of so many values has less variance than
+/// that of independent ones.
+class RunVariance {
+ public:
+  /// Of so many values, whose runs are to have `wanted`. There are two runs at least.
+  RunVariance(uint32_t values, double wanted) : values_(values) {
+    while (2 * run_ <= wanted && 4 * run_ <= values) run_ *= 2;
+  }
+  void add(double value) {
+    sum_ += value;
+    squares_ += value * value;
+    run_sum_ += value;
+    if (++in_run_ < run_) return;
+    runs_sum_ += run_sum_;
+    runs_squares_ += run_sum_ * run_sum_;
+    run_sum_ = 0;
+    in_run_ = 0;
+  }
+  double of_single() const { return variance_of(sum_, squares_, values_); }
+  /// Times values: what of_single() is where nothing stratifies.
+  double of_runs() const {
+    const uint32_t runs = values_ / run_;
+    return variance_of(runs_sum_, runs_squares_, runs) / run_;
+  }
+
+ private:
+  uint32_t values_, run_ = 1, in_run_ = 0;
+  double sum_ = 0, squares_ = 0, run_sum_ = 0, runs_sum_ = 0, runs_squares_ = 0;
+};
+
 /// Somewhere in the pixel that the probe looks at: the probe itself for the first path.
 Vec2f raster_in_pixel(const PixelProbe& probe, const Vec2f& u, uint32_t path) {
   if (path == 0) return probe.raster;
@@ -206,7 +237,8 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   plan.survival = plan.evenness = 1;
   plan.light_samples = 1;
   const double count = paths;
-  double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
+  RunVariance direct_variance(paths, double(in.camera_samples));
+  double direct = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
   double light_differences = 0, light_sample_rays = 0;
   double ungathered = 0, ungathered_squares = 0, gathered = 0, gathered_squares = 0;
   // Else the sink would drop what is mirrored under its own name.
@@ -262,7 +294,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
     result.rays += double(rays_before) / count;
     rays_beyond += double(walk.rays() - rays_before) / count;
     direct += recorder.direct();
-    direct_squares += recorder.direct() * recorder.direct();
+    direct_variance.add(recorder.direct());
     beyond += recorder.beyond();
     even += recorder.even();
     even_squares += recorder.even() * recorder.even();
@@ -277,7 +309,8 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   result.ungathered.path_mean_square = ungathered_squares / count;
   result.ungathered.path_variance = variance_of(ungathered, ungathered_squares, count);
   result.gather_variance = variance_of(gathered, gathered_squares, count);
-  result.direct_variance = variance_of(direct, direct_squares, count);
+  result.direct_variance = direct_variance.of_runs();
+  result.single_direct_variance = direct_variance.of_single();
   result.light_sample_variance = light_differences / (2 * count);
   result.light_sample_rays = light_sample_rays;
   result.radiance += (direct + beyond) / count;
