@@ -67,7 +67,7 @@ TEST_F(BallDisks, HaveBounds) {
 TEST_F(BallDisks, ShrinkWithThePasses) {
   PixelPlans plans = disks(3000, 1, 0);
   std::vector<PixelPlan> other = plans.plans();
-  other[7] = {0.5f, 0.25f, 2};
+  other[7] = {.merge_area = 0.5f, .survival = 0.25f, .glossy_survival = 0.75f, .evenness = 2};
   plans = plans.with(other);
   const Vec2f at = plans.seen().probes()[7].raster;
   const PixelPlan plan = plans.at(at, 0.1f);
@@ -75,7 +75,10 @@ TEST_F(BallDisks, ShrinkWithThePasses) {
   EXPECT_EQ(plan.survival, 0.25f);
   EXPECT_EQ(plan.evenness, 2);
   EXPECT_FLOAT_EQ(plan.counted_area(4), 0.0125f);
-  EXPECT_FLOAT_EQ(plan.counted_survival(), 0.5f);
+  EXPECT_FLOAT_EQ(plan.counted_survival(0), 0.5f);
+  EXPECT_FLOAT_EQ(plan.counted_survival(1), 0.75f);
+  EXPECT_FLOAT_EQ(plan.counted_survival(0.5f), 0.625f);
+  EXPECT_FLOAT_EQ(plan.survival_toward(0.5f), 0.5f);
 }
 
 /// Where no light has come nothing merges.

@@ -81,7 +81,11 @@ TEST(CameraPath, MeetsAndSamplesTheLightOfAFurnace) {
     settings.merge_area = pi * sqr(0.06f);
     settings.accepted_area = 0.05f;
     const PathWeights weights(settings);
-    const PixelPlan plan{settings.merge_area, 0.6f, 1.2f, 3};
+    const PixelPlan plan{.merge_area = settings.merge_area,
+                         .survival = 0.6f,
+                         .glossy_survival = 0.9f,
+                         .evenness = 1.2f,
+                         .light_samples = 3};
     RunningStatistics all;
     for (uint32_t number = 0; number < measured_passes; ++number) {
       SplatBuffer nowhere(furnace.scene().film(), ComponentSet());

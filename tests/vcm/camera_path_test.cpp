@@ -120,9 +120,9 @@ TEST(CameraPath, SharesLightBetweenMergingAndGoingOn) {
   const struct {
     float radius;
     PixelPlan plan;
-  } rows[] = {{0.08f, {pi * sqr(0.08f), 1, 1}},
-              {0.08f, {pi * sqr(0.08f), 0.5f, 4}},
-              {0.06f, {pi * sqr(0.06f), 0.3f, 1.5f}}};
+  } rows[] = {{0.08f, {.merge_area = pi * sqr(0.08f)}},
+              {0.08f, {.merge_area = pi * sqr(0.08f), .survival = 0.5f, .evenness = 4}},
+              {0.06f, {.merge_area = pi * sqr(0.06f), .survival = 0.3f, .evenness = 1.5f}}};
   for (const auto& row : rows) {
     SCOPED_TRACE(fmt::format("radius {}, survival {}, evenness {}", row.radius, row.plan.survival,
                              row.plan.evenness));
@@ -159,7 +159,7 @@ TEST(CameraPath, EndsAtALampAtMost) {
   const LightVertices light;
   const MattMerging matt;
   const PixelPlans plans(lit.scene());
-  const PixelPlan plan{0.01f, 0.25f, 1};
+  const PixelPlan plan{.merge_area = 0.01f, .survival = 0.25f};
   const CameraPathInputs inputs{.scene = lit.scene(),
                                 .emission = emission,
                                 .weights = weights,

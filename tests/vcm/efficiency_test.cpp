@@ -81,6 +81,42 @@ TEST(Efficiency, VarianceOfPathsAlone) {
   EXPECT_NEAR(chosen.expected.rays, 8, 1e-9);
 }
 
+/// Light that camera paths find best by the glossy lobe, and merging by the diffuse one: each goes
+/// on as often as it pays for itself.
+TEST(Efficiency, EachLobeHasItsChance) {
+  ProbeStatistics probe = light(12);
+  probe.glossy_squares = light(-12).squares;
+  probe.glossy_rays_beyond = probe.rays_beyond;
+  const PixelPlan plan = choose({probe}).plans[0];
+  EXPECT_EQ(plan.survival, least_survival);
+  EXPECT_EQ(plan.glossy_survival, 1);
+  std::swap(probe.squares, probe.glossy_squares);
+  const PixelPlan swapped = choose({probe}).plans[0];
+  EXPECT_EQ(swapped.survival, 1);
+  EXPECT_EQ(swapped.glossy_survival, 0.5f);  // no glossy lobe has less
+  // All that glossy paths find, and what they cost, is expected as well.
+  ProbeStatistics glossy = light(-12);
+  std::swap(glossy.squares, glossy.glossy_squares);
+  std::swap(glossy.rays_beyond, glossy.glossy_rays_beyond);
+  EXPECT_NEAR(choose({glossy}).expected.rays, choose({light(-12)}).expected.rays, 1e-9);
+  EXPECT_NEAR(choose({glossy}).expected.squared_error, choose({light(-12)}).expected.squared_error,
+              1e-9);
+}
+
+/// What samples of a pass take off by stratifying one another lights' samples have less of to take.
+TEST(Efficiency, StratifiedSamplesLeaveLessToLights) {
+  ProbeStatistics probe;
+  probe.radiance = 1;
+  probe.rays = 2;
+  probe.light_sample_rays = 1;
+  probe.direct_variance = 0.5;
+  probe.single_direct_variance = 1;
+  probe.light_sample_variance = 0.8;
+  const Efficiency expected = choose({probe}, 0).expected;
+  const int lights = choose({probe}, 0).plans[0].light_samples;
+  EXPECT_NEAR(expected.squared_error, (0.1 + 0.4 / lights) / 4 / 1.01, 1e-9);
+}
+
 /// A probe with nothing but direct light of variance 1, of which samples of lights share a part.
 ProbeStatistics direct_light(double light_sample_variance, double light_sample_rays = 1) {
   ProbeStatistics probe;

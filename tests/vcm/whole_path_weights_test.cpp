@@ -82,6 +82,7 @@ PixelPlans plans_of(const Scene& scene) {
   for (PixelPlan& plan : different) {
     plan.merge_area = pi * sqr(0.004f + 0.016f * next());
     plan.survival = 0.1f + 0.9f * next();
+    plan.glossy_survival = 1.1f - plan.survival;
     plan.evenness = 0.3f + 0.7f * next();
     plan.light_samples = 1 + int(4 * next());
   }
@@ -218,15 +219,17 @@ TEST(WholePathWeights, SumToOneOutside) {
 /// decided for their pixels, they don't.
 TEST(WholePathWeights, NoticeWhatIsForgotten) {
   const Guided guided(lamps_in_a_room());
-  const auto expect_noticed = [&](const std::string& name, const WholePathRules& camera) {
+  // By one path in so many at least.
+  const auto expect_noticed = [&](const std::string& name, const WholePathRules& camera,
+                                  uint64_t one_in = 20) {
     const Sums found = sums(guided.rules, camera, traced_paths / 4);
     EXPECT_GT(found.largest, 100 * weight_tolerance) << name;
-    EXPECT_GT(found.off, found.paths / 20) << name;
+    EXPECT_GT(found.off, found.paths / one_in) << name;
   };
   const auto with_plans = [&](float survival, float disk) {
     std::vector<PixelPlan> plans = guided.rules.plans.plans();
     for (PixelPlan& plan : plans) {
-      if (survival > 0) plan.survival = plan.evenness = survival;
+      if (survival > 0) plan.survival = plan.glossy_survival = plan.evenness = survival;
       plan.merge_area *= disk;
     }
     WholePathRules camera = guided.rules;
@@ -240,6 +243,11 @@ TEST(WholePathWeights, NoticeWhatIsForgotten) {
   plain.emission = guided.plain;
   expect_noticed("without emission", plain);
   expect_noticed("without survival", with_plans(1, 1));
+  WholePathRules all_alike = guided.rules;
+  std::vector<PixelPlan> plans = guided.rules.plans.plans();
+  for (PixelPlan& plan : plans) plan.glossy_survival = plan.survival;
+  all_alike.plans = guided.rules.plans.with(std::move(plans));
+  expect_noticed("without a chance of glossy lobes", all_alike, 50);  // few surfaces are glossy
   expect_noticed("with other disks", with_plans(0, 3));
 }
 

@@ -150,6 +150,11 @@ struct BsdfValues {
   float pdf = 0, pdf_reverse = 0;
 
   friend bool operator==(const BsdfValues&, const BsdfValues&) = default;
+  /// Of f, the sum over the lanes; 0 where f is black.
+  float glossy_share() const {
+    const float of_glossy = glossy.sum(), of_both = of_glossy + diffuse.sum();
+    return of_both > 0 ? of_glossy / of_both : 0.0f;
+  }
   /// Of one of the two lobes.
   const Spectrum& of(Lobes lobe) const { return lobe == Lobes::diffuse ? diffuse : glossy; }
 };

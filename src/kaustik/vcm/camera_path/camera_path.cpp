@@ -26,7 +26,7 @@ CameraWalk::Arrival CameraPath::go_on(bool scatters_in_media, LightWeights* weig
     arrival = CameraWalk::Arrival::surface;
   }
   if (arrival == CameraWalk::Arrival::nothing) return arrival;
-  if (had_roulette) walk_.has_survived(vertices_.plan().survival);
+  if (had_roulette) walk_.has_survived(vertices_.survival());
   vertices_.arrive(walk_);
   return arrival;
 }
@@ -54,7 +54,7 @@ bool CameraPath::may_end_at_lamp() const {
 }
 
 bool CameraPath::survives_first(float u) {
-  if (!vertices_.has_roulette_at_first() || u < vertices_.plan().survival) return true;
+  if (!vertices_.has_roulette_at_first() || u < vertices_.survival()) return true;
   walk_.meet_lamps_only();
   return may_end_at_lamp();
 }

@@ -220,7 +220,7 @@ SurfaceMerging::MergedLight SurfaceMerging::merged_matt(
                             .narrow_slope = weights.narrow.slope,
                             .weights = in_.weights.matt_vertex(
                                 vertices_.list(), vertices_.plan().counted_area(in_.camera_samples),
-                                vertices_.plan().counted_survival()),
+                                vertices_.plan().counted_survival(0)),
                             .only_after_specular = is_only_focused_wanted()},
                            each);
   const Spectrum reflected = vertex.diffuse_value();
@@ -254,6 +254,7 @@ void SurfaceMerging::visit_at_gauge(float radius, uint32_t most_parts, const Vis
     if (walk_.events() + int(at.data.before) > in_.maximum_events) continue;
     const BsdfValues bsdf = vertex.values(at.data.direction.unpack());
     path.light = in_.light.before(at.data);
+    path.first_survival = vertices_.counted_survival_toward(bsdf);
     path.pdf_light_last = at.pdf_light;
     path.pdf_camera_last = bsdf.pdf * at.to_previous;
     path.pdf_camera_before_last = path.light[path.light.size() - 2].pdf_camera;
@@ -311,6 +312,7 @@ void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
     const BsdfValues& bsdf = (*values)[i];
     path.light = in_.light.before(photon);
     path.pdf_light_before_last = vertices_.pdf_light_before(wi, bsdf.pdf_reverse);
+    path.first_survival = vertices_.counted_survival_toward(bsdf);
     if (in_.tails) {
       const PathWeights::LightTail& tail = (*in_.tails)[near.number];
       path.pdf_light_last = tail.pdf_light;
@@ -381,7 +383,7 @@ std::vector<SurfaceMerging::MergedVertex> SurfaceMerging::merged_vertices() cons
                      const Spectrum light =
                          walk_.throughput() * bsdf.of(Lobes::diffuse) * flux * kernel;
                      result.push_back({in_.weights.beyond_merge(path), light,
-                                       at.data.specular ? Spectrum() : light});
+                                       at.data.specular ? Spectrum() : light, bsdf.glossy_share()});
                    });
     return result;
   }
@@ -402,8 +404,8 @@ std::vector<SurfaceMerging::MergedVertex> SurfaceMerging::merged_vertices() cons
                     if (component == Component::indirect) indirect += bsdf.of(lobe);
                   }
                   const Spectrum arriving = walk_.throughput() * flux * factor;
-                  result.push_back(
-                      {in_.weights.beyond_merge(path), arriving * reflected, arriving * indirect});
+                  result.push_back({in_.weights.beyond_merge(path), arriving * reflected,
+                                    arriving * indirect, bsdf.glossy_share()});
                 });
   return result;
 }

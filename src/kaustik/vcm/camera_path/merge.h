@@ -25,7 +25,8 @@ class SurfaceMerging {
   struct MergedVertex {
     float beyond;  ///< PathWeights::beyond_merge()
     Spectrum light;
-    Spectrum indirect;  ///< the part of it that is diffuse indirect light
+    Spectrum indirect;   ///< the part of it that is diffuse indirect light
+    float glossy_share;  ///< BsdfValues::glossy_share() of where it comes from
   };
   /// All that are wanted, for who must know more than the sum.
   std::vector<MergedVertex> merged_vertices() const;

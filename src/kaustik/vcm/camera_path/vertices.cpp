@@ -81,6 +81,7 @@ void CameraVertices::leave(const CameraWalk& walk) {
   if (!vertex.delta && all_delta_) {
     all_delta_ = false;
     first_ = vertices_.size();
+    if (!here_.is_in_medium()) glossy_share_ = walk.vertex().values(direction_).glossy_share();
   }
   previous_ = here_.is_in_medium() ? LightQuery(here_.position()) : light_query(walk.vertex());
   if (vertices_.size() < 2 || !in_.techniques().needs_light_paths()) return;
@@ -92,7 +93,7 @@ PathHalves CameraVertices::halves() const {
   PathHalves result;
   result.camera = vertices_;
   result.first_merge_area = plan_.counted_area(in_.camera_samples);
-  result.first_survival = plan_.counted_survival();
+  result.first_survival = plan_.counted_survival(glossy_share_);
   result.first_light_samples = float(plan_.light_samples);
   return result;
 }

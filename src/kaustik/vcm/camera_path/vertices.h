@@ -42,8 +42,12 @@ class CameraVertices {
   bool has_left_first() const { return first_ > 0 && first_ == vertices_.size(); }
   /// Whether it is on its way from there, and not all paths go that way.
   bool has_roulette_at_first() const {
-    return has_left_first() && !is_in_medium() && plan_.survival < 1;
+    return has_left_first() && !is_in_medium() && survival() < 1;
   }
+  /// The chance with which they do, in the direction that it has taken.
+  float survival() const { return plan_.survival_toward(glossy_share_); }
+  /// BsdfValues::glossy_share() of that direction.
+  float glossy_share() const { return glossy_share_; }
   /// Lights that are sampled at the vertex.
   int light_samples() const;
   /// The same of the vertex that the path has left.
@@ -58,8 +62,12 @@ class CameraVertices {
   PathVertex next_in_medium(const Vec3f& position, const Medium& medium) const;
   PathVertex next_infinitely_far() const;
 
-  /// The camera's half of a path that ends here.
+  /// The camera's half of a path that ends here. If this is the first vertex whose event is not
+  /// delta, PathHalves::first_survival is counted_survival_toward() the next one.
   PathHalves halves() const;
+  float counted_survival_toward(const BsdfValues& values) const {
+    return plan_.counted_survival(is_at_first() ? values.glossy_share() : glossy_share_);
+  }
   /// The same with one vertex more, calling `weigh(halves)`.
   template <typename Weigh>
   float with(const PathVertex& next, const Weigh& weigh) {
@@ -96,8 +104,9 @@ class CameraVertices {
   LightQuery previous_;  ///< of the last vertex
   float pdf_ = 0;
   Vec3f direction_{0, 0, 0};
-  bool all_delta_ = true;  ///< events so far
-  size_t first_ = 0;       ///< number of the first vertex whose event is not delta; 0: none yet
+  bool all_delta_ = true;   ///< events so far
+  float glossy_share_ = 0;  ///< see glossy_share()
+  size_t first_ = 0;        ///< number of the first vertex whose event is not delta; 0: none yet
 };
 
 }  // namespace kaustik

@@ -74,7 +74,7 @@ PathHalves splat_halves(const VcmLightInputs& in, const LightPathUnderWay& path,
   halves.pdf_next_event = path.pdf_next_event;
   const PixelPlan plan = in.plans.at(seen.connection.raster, in.shrinkage);
   halves.first_merge_area = plan.counted_area(in.camera_samples);
-  halves.first_survival = plan.counted_survival();
+  halves.first_survival = plan.counted_survival(seen.glossy_share);
   return halves;
 }
 

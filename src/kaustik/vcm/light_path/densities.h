@@ -34,6 +34,7 @@ struct SeenByCamera {
   float facing;       ///< Facing::factor() of the vertex to the camera
   float pdf_reverse;  ///< density with which a path from the camera would be scattered there to the
                       ///< vertex before
+  float glossy_share;  ///< BsdfValues::glossy_share() of these two directions
 };
 PathHalves splat_halves(const VcmLightInputs& in, const LightPathUnderWay& path,
                         const SeenByCamera& seen);

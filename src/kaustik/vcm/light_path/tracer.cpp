@@ -76,10 +76,11 @@ class Tracer {
     const bool has_events = path.vertices.size() >= 3;
     if (has_events && techniques_.splats)
       splats_.show(at, [&](const CameraConnection& connection, const SurfaceVertex& seen) {
+        const BsdfValues values = seen.values(connection.direction);
         return in_.weights.splat(
             splat_halves(in_, path,
                          {connection, abs_dot(connection.direction, seen.point().ng),
-                          seen.pdf_reverse(connection.direction, Lobes::all)}));
+                          values.pdf_reverse, values.glossy_share()}));
       });
     keep(at, path, has_events);
   }
@@ -144,9 +145,10 @@ class Tracer {
     if (!techniques_.splats || before < 2) return;
     path.vertices.push_back(vertex);
     splats_.show(at, [&](const CameraConnection& connection) {
-      return in_.weights.splat(splat_halves(in_, path,
-                                            {connection, at.medium.mean_extinction(at.position),
-                                             at.medium.phase().eval(connection.direction, at.wo)}));
+      return in_.weights.splat(
+          splat_halves(in_, path,
+                       {connection, at.medium.mean_extinction(at.position),
+                        at.medium.phase().eval(connection.direction, at.wo), 0}));
     });
     path.vertices.pop_back();
   }

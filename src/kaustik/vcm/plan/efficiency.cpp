@@ -13,6 +13,10 @@ namespace {
 /// Chances of going on, and numbers of lights that are sampled. Of two choices that are as good the
 /// first is taken: where pilot paths have met nothing it costs nothing to go on.
 constexpr std::array<double, 8> chances{1, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, double(least_survival)};
+/// Of the first so many of them glossy lobes choose. Where merging finds what they would, it leaves
+/// blotches, and single vertices that a pilot mostly does not happen upon: with chances as small as
+/// those of diffuse lobes errors were larger in all scenes that ship.
+constexpr size_t glossy_chances = 3;
 constexpr std::array<int, 5> light_counts{1, 2, 4, 8, PixelPlan::most_light_samples};
 /// Times as much as samples whose variance is their mean square, even samples count at most.
 constexpr double most_evenness = 30;
@@ -26,31 +30,37 @@ constexpr size_t probes_at_a_time = 256;
 constexpr double share_of_mean_unknown = 0.1;
 
 bool has_found_nothing(const ProbeStatistics& probe) {
-  return probe.cache_share == 0 && probe.rays_beyond > 0 && probe.merged_alone == 0 &&
-         std::all_of(probe.squares.begin(), probe.squares.end(), [](double s) { return s == 0; });
+  const auto all_zero = [](const auto& squares) {
+    return std::all_of(squares.begin(), squares.end(), [](double s) { return s == 0; });
+  };
+  return probe.cache_share == 0 && probe.rays_beyond + probe.glossy_rays_beyond > 0 &&
+         probe.merged_alone == 0 && probe.glossy_merged_alone == 0 && all_zero(probe.squares) &&
+         all_zero(probe.glossy_squares);
 }
 
-/// What may be chosen at a probe: a chance, and a number of lights.
+/// What may be chosen at a probe: a chance for each lobe, and a number of lights.
 struct Candidates {
-  // By chance: relative squared error of all other light.
-  std::array<double, chances.size()> squared_error{}, evenness{};
+  // By chance: relative squared error of what the diffuse lobe scatters of all other light, and the
+  // glossy one.
+  std::array<double, chances.size()> squared_error{}, evenness{}, glossy_squared_error{};
   // Relative squared errors of direct light by one sample of a light and of what a cache has: all,
   // and what n samples divide by n.
   double constant = 0, light_sample = 0;
-  double rays = 0, rays_beyond = 0, light_sample_rays = 0;
+  double rays = 0, rays_beyond = 0, glossy_rays_beyond = 0, light_sample_rays = 0;
 };
 
-/// A pair of them, by its places in `chances` and `light_counts`.
+/// Some of them, by their places in `chances` and `light_counts`.
 struct Chosen {
-  uint8_t chance = 0, lights = 0;
+  uint8_t chance = 0, glossy_chance = 0, lights = 0;
 };
 
 double squared_error(const Candidates& of, const Chosen& chosen) {
-  return of.squared_error[chosen.chance] + of.constant -
-         of.light_sample * (1 - 1.0 / light_counts[chosen.lights]);
+  return of.squared_error[chosen.chance] + of.glossy_squared_error[chosen.glossy_chance] +
+         of.constant - of.light_sample * (1 - 1.0 / light_counts[chosen.lights]);
 }
 double rays(const Candidates& of, const Chosen& chosen) {
   return of.rays + chances[chosen.chance] * of.rays_beyond +
+         chances[chosen.glossy_chance] * of.glossy_rays_beyond +
          (light_counts[chosen.lights] - 1) * of.light_sample_rays;
 }
 
@@ -60,11 +70,12 @@ double evenness_at(const ProbeStatistics& probe, double chance) {
   return std::min(most_evenness, 1 / std::max(1e-9, 1 - chance * share));
 }
 
-double variance(const ProbeStatistics& probe, double kappa, const MergeScale& scale) {
+double variance(const std::array<double, ProbeStatistics::bin_count>& of_both, double merged_alone,
+                double kappa, const MergeScale& scale) {
   const double nu = scale.area * scale.light_paths;
-  double sum = probe.merged_alone > 0 ? probe.merged_alone / nu : 0.0;
+  double sum = merged_alone > 0 ? merged_alone / nu : 0.0;
   double merging = nu * std::ldexp(1.0, -ProbeStatistics::bin_of_one);
-  for (const double squares : probe.squares) {
+  for (const double squares : of_both) {
     sum += squares / (kappa + merging);
     merging *= 2;
   }
@@ -84,7 +95,10 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
   for (size_t i = 0; i < chances.size(); ++i) {
     result.evenness[i] = counts_evenness ? evenness_at(probe, chances[i]) : 1.0;
     const double kappa = costs.camera_samples * chances[i] * result.evenness[i];
-    result.squared_error[i] = variance(probe, kappa, scale) * relative;
+    result.squared_error[i] = variance(probe.squares, probe.merged_alone, kappa, scale) * relative;
+    result.glossy_squared_error[i] = variance(probe.glossy_squares, probe.glossy_merged_alone,
+                                              costs.camera_samples * chances[i], scale) *
+                                     relative;
   }
   const double direct = probe.direct_variance / costs.camera_samples;
   // What stratification takes off, it is taken to take off all parts of it.
@@ -96,6 +110,7 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
   result.light_sample = std::min(direct, light_sample) * relative;
   result.rays = probe.rays + rays_to_merge(probe, scale);
   result.rays_beyond = probe.rays_beyond;
+  result.glossy_rays_beyond = probe.glossy_rays_beyond;
   result.light_sample_rays = probe.light_sample_rays;
   return result;
 }
@@ -114,7 +129,9 @@ std::vector<Candidates> candidates_of(const std::vector<ProbeStatistics>& probes
       ProbeStatistics probe = probes[p];
       if (has_found_nothing(probe)) {
         probe.squares = mean.squares;
+        probe.glossy_squares = mean.glossy_squares;
         for (double& squares : probe.squares) squares *= share_of_mean_unknown;
+        for (double& squares : probe.glossy_squares) squares *= share_of_mean_unknown;
       }
       all[p] = candidates(probe, costs, scales[p], choices.survival, least);
     }
@@ -160,13 +177,16 @@ uint8_t least_of(size_t count, const Time& time) {
   return uint8_t(best);
 }
 
-/// The pair that adds least to the time. Chance and lights add to it independently.
+/// What adds least to the time. Chances and lights add to it independently.
 Chosen least_time(const Candidates& of, const Efficiency& total, const PlanChoices& choices) {
-  return {.chance = least_of(choices.survival ? chances.size() : 1,
-                             [&](size_t i) {
-                               return of.squared_error[i] * total.rays +
-                                      chances[i] * of.rays_beyond * total.squared_error;
-                             }),
+  const auto chance = [&](size_t count, const std::array<double, chances.size()>& errors,
+                          double rays_beyond) {
+    return least_of(choices.survival ? count : 1, [&](size_t i) {
+      return errors[i] * total.rays + chances[i] * rays_beyond * total.squared_error;
+    });
+  };
+  return {.chance = chance(chances.size(), of.squared_error, of.rays_beyond),
+          .glossy_chance = chance(glossy_chances, of.glossy_squared_error, of.glossy_rays_beyond),
           .lights = least_of(choices.light_samples ? light_counts.size() : 1, [&](size_t i) {
             return of.light_sample / light_counts[i] * total.rays +
                    light_counts[i] * of.light_sample_rays * total.squared_error;
@@ -192,6 +212,8 @@ Choice improved(const std::vector<Candidates>& all, const Chosen& begin, const P
 void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   for (size_t i = 0; i < squares.size(); ++i) squares[i] += weight * other.squares[i];
   merged_alone += weight * other.merged_alone;
+  for (size_t i = 0; i < squares.size(); ++i) glossy_squares[i] += weight * other.glossy_squares[i];
+  glossy_merged_alone += weight * other.glossy_merged_alone;
   path_mean_square += weight * other.path_mean_square;
   path_variance += weight * other.path_variance;
   direct_variance += weight * other.direct_variance;
@@ -201,6 +223,7 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   merged += weight * other.merged;
   rays += weight * other.rays;
   rays_beyond += weight * other.rays_beyond;
+  glossy_rays_beyond += weight * other.glossy_rays_beyond;
   light_sample_rays += weight * other.light_sample_rays;
   for (size_t i = 0; i < squares.size(); ++i)
     ungathered.squares[i] += weight * other.ungathered.squares[i];
@@ -240,15 +263,16 @@ Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCo
   const std::vector<Candidates> all = candidates_of(probes, costs, scales, choices);
   const auto from = [&](size_t lights) {
     const size_t chance = choices.survival ? chances.size() / 2 : 0;
-    return improved(all, {uint8_t(chance), uint8_t(lights)}, costs, scales, choices);
+    return improved(all, {uint8_t(chance), 0, uint8_t(lights)}, costs, scales, choices);
   };
   Choice best = from(0);
   if (choices.light_samples)
     if (Choice other = from(light_counts.size() - 1); other.expected.time() < best.expected.time())
       best = std::move(other);
   for (size_t p = 0; p < all.size(); ++p) {
-    const auto [chance, lights] = best.chosen[p];
+    const auto [chance, glossy_chance, lights] = best.chosen[p];
     plans[p].survival = float(chances[chance]);
+    plans[p].glossy_survival = float(chances[glossy_chance]);
     plans[p].evenness = float(all[p].evenness[chance]);
     plans[p].light_samples = light_counts[lights];
   }

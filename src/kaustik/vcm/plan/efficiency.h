@@ -14,9 +14,13 @@ namespace kaustik {
 struct ProbeStatistics {
   static constexpr int bin_count = 32;
   static constexpr int bin_of_one = 12;  ///< where m/p is 1; each bin is twice the one before
-  /// ∫ f²/p in bins of m/p: all that variances of mixtures of both depend on.
+  /// ∫ f²/p in bins of m/p: all that variances of mixtures of both depend on. Of the light that the
+  /// diffuse lobe scatters …
   std::array<double, bin_count> squares{};
-  double merged_alone = 0;                         ///< ∫ f²/m where no camera path goes
+  double merged_alone = 0;  ///< ∫ f²/m where no camera path goes
+  /// … and of that of the glossy one: what both do is split by their shares of f.
+  std::array<double, bin_count> glossy_squares{};
+  double glossy_merged_alone = 0;
   double path_mean_square = 0, path_variance = 0;  ///< of what a camera path finds, but for what
                                                    ///< merging finds far more often
   /// Of direct light by camera samples that sample one light at the vertex, with the lamp that the
@@ -26,10 +30,11 @@ struct ProbeStatistics {
   double single_direct_variance = 0;  ///< … that of one alone is larger …
   /// …, and this is the part of the latter that falls as 1/n where n lights are sampled there.
   double light_sample_variance = 0;
-  double radiance = 0;     ///< of everything
-  double merged = 0;       ///< light vertices of a pass within the disk
-  double rays = 0;         ///< per camera sample up to the lamp that the path may meet next …
-  double rays_beyond = 0;  ///< … and of a path that goes on there
+  double radiance = 0;  ///< of everything
+  double merged = 0;    ///< light vertices of a pass within the disk
+  double rays = 0;      ///< per camera sample up to the lamp that the path may meet next …
+  /// … and of a path that goes on there, by the same split.
+  double rays_beyond = 0, glossy_rays_beyond = 0;
   double light_sample_rays = 0;  ///< of a sample of a light at the vertex; one is in `rays`
 
   /// `squares` … `path_variance` and `merged` without diffuse indirect light, where a cache may
@@ -87,9 +92,9 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
 /// the ratio of their mean square to their variance (variance-aware weights, Grittmann et al.
 /// 2019). To this comes the variance of direct light over S, a part of which n samples of lights
 /// divide by n, and that of what a cache has.
-/// Writes survival, evenness and light_samples of `plans`, one for each probe, and returns what is
-/// expected. `scales` by probe; light_paths 0: nothing merges. What is not asked for is written
-/// as 1.
+/// Writes survival, glossy_survival, evenness and light_samples of `plans`, one for each probe, and
+/// returns what is expected. `scales` by probe; light_paths 0: nothing merges. What is not asked
+/// for is written as 1.
 Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
                         const std::vector<MergeScale>& scales, const PlanChoices& choices,
                         std::vector<PixelPlan>& plans);

@@ -70,12 +70,14 @@ class Recorder final : public LightWeights {
     const auto bin = size_t(bin_of(ratio_));
     beyond_ += light * share;
     even_ += light * even_share;
-    result_.squares[bin] += light * light * share / paths_;
+    const double squares = light * light * share / paths_;
+    result_.squares[bin] += (1 - glossy_share_) * squares;
+    result_.glossy_squares[bin] += glossy_share_ * squares;
     const double gathered = is_for_cache_ ? seen_indirect_ - indirect_before : 0.0;
     const double rest = light - gathered;
     gathered_ += gathered * even_share;
     ungathered_even_ += rest * even_share;
-    result_.ungathered.squares[bin] += rest * rest * share / paths_;
+    result_.ungathered.squares[bin] += (1 - glossy_share_) * rest * rest * share / paths_;
   }
   /// A cache may have the diffuse indirect light of the probed vertex.
   void leave_to_cache(bool is_for_it) { is_for_cache_ = is_for_it; }
@@ -84,10 +86,12 @@ class Recorder final : public LightWeights {
     const double now = sink_.all_light();
     return now - std::exchange(seen_, now);
   }
-  /// The path has left the probed vertex, and found what every path looks for there.
-  void go_on() {
+  /// The path has left the probed vertex, in a direction in which the glossy lobe has that share of
+  /// f, and found what every path looks for there.
+  void go_on(double glossy_share) {
     note();
     goes_on_ = true;
+    glossy_share_ = glossy_share;
   }
   double direct() const { return direct_; }
   double beyond() const { return beyond_; }
@@ -118,7 +122,7 @@ class Recorder final : public LightWeights {
   double paths_;  ///< of the probe
   ProbeStatistics& result_;
   bool goes_on_ = false, is_for_cache_ = false;
-  double seen_ = 0, seen_indirect_ = 0, ratio_ = 0;
+  double seen_ = 0, seen_indirect_ = 0, ratio_ = 0, glossy_share_ = 0;
   double direct_ = 0, beyond_ = 0, even_ = 0, ungathered_even_ = 0, gathered_ = 0;
 };
 
@@ -126,7 +130,8 @@ class Recorder final : public LightWeights {
 void add_merged(CameraPath& path, float samples, double light_share, ProbeStatistics& result) {
   const double camera_samples = double(samples);
   const bool is_for_cache = IndirectCache::is_for(path.walk(), path.inputs().maximum_events);
-  for (const auto& [beyond, spectrum, indirect] : path.merged_vertices()) {
+  for (const auto& [beyond, spectrum, indirect, of_glossy] : path.merged_vertices()) {
+    const double glossy = double(of_glossy), diffuse = 1 - glossy;
     const double light = double(spectrum.sum());
     const double rest = is_for_cache ? light - double(indirect.sum()) : light;
     result.merged += 1 / light_share;
@@ -139,14 +144,17 @@ void add_merged(CameraPath& path, float samples, double light_share, ProbeStatis
             ? std::min(most_ratio, kernel_efficiency * camera_samples / std::sqrt(double(beyond)))
             : 0.0;
     if (!(ratio > 0)) {
-      result.merged_alone += squares;
-      result.ungathered.merged_alone += rest * rest * light_share;
+      result.merged_alone += diffuse * squares;
+      result.glossy_merged_alone += glossy * squares;
+      result.ungathered.merged_alone += diffuse * rest * rest * light_share;
       result.radiance += light;
       continue;
     }
     const double share = ratio / (camera_samples + ratio);
-    result.squares[size_t(bin_of(ratio))] += squares * ratio * share;
-    result.ungathered.squares[size_t(bin_of(ratio))] += rest * rest * light_share * ratio * share;
+    const auto bin = size_t(bin_of(ratio));
+    result.squares[bin] += diffuse * squares * ratio * share;
+    result.glossy_squares[bin] += glossy * squares * ratio * share;
+    result.ungathered.squares[bin] += diffuse * rest * rest * light_share * ratio * share;
     result.radiance += light * share;
   }
 }
@@ -234,11 +242,12 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
                               size_t index, uint32_t paths, const PilotLimits& limits,
                               Scratch& scratch) {
   ProbeStatistics result;
-  plan.survival = plan.evenness = 1;
+  plan.survival = plan.glossy_survival = plan.evenness = 1;
   plan.light_samples = 1;
   const double count = paths;
   RunVariance direct_variance(paths, double(in.camera_samples));
-  double direct = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
+  double direct = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0,
+         glossy_rays_beyond = 0;
   double light_differences = 0, light_sample_rays = 0;
   double ungathered = 0, ungathered_squares = 0, gathered = 0, gathered_squares = 0;
   // Else the sink would drop what is mirrored under its own name.
@@ -254,7 +263,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
     uint64_t rays_before = 0;
     bool is_behind = false;
     const auto go_beyond = [&] {
-      recorder.go_on();
+      recorder.go_on(double(path.vertices().glossy_share()));
       rays_before = walk.rays();
       is_behind = false;
     };
@@ -292,7 +301,9 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
     recorder.note();
     if (rays_before == 0) rays_before = walk.rays();
     result.rays += double(rays_before) / count;
-    rays_beyond += double(walk.rays() - rays_before) / count;
+    const double glossy_share = double(path.vertices().glossy_share());
+    rays_beyond += (1 - glossy_share) * double(walk.rays() - rays_before) / count;
+    glossy_rays_beyond += glossy_share * double(walk.rays() - rays_before) / count;
     direct += recorder.direct();
     direct_variance.add(recorder.direct());
     beyond += recorder.beyond();
@@ -304,6 +315,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
     gathered_squares += sqr(recorder.gathered());
   }
   result.rays_beyond = rays_beyond;
+  result.glossy_rays_beyond = glossy_rays_beyond;
   result.path_mean_square = even_squares / count;
   result.path_variance = variance_of(even, even_squares, count);
   result.ungathered.path_mean_square = ungathered_squares / count;
@@ -338,7 +350,8 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
   });
   double counted = 0;
   for (const ProbeStatistics& s : single)
-    counted += density.paths * (s.rays + s.rays_beyond + s.light_sample_rays);
+    counted +=
+        density.paths * (s.rays + s.rays_beyond + s.glossy_rays_beyond + s.light_sample_rays);
   rays += to_integer(std::round(counted), uint64_t(0), uint64_t(1) << 53);
   std::vector<ProbeStatistics> of_cells = smoothed(single, cells);
   if (density.paths < most_paths_per_probe) of_cells = smoothed(of_cells, cells);

@@ -21,7 +21,9 @@ inline constexpr float least_disk_widths = 1, most_disk_widths = 6;
 /// What is decided for the first vertex of a pixel's camera paths whose event is not delta.
 struct PixelPlan {
   float merge_area = 0;  ///< of the disk of merging, m²
-  float survival = 1;    ///< chance of going on from there, but to look for lamps
+  /// Chance of going on from there, but to look for lamps: by the diffuse lobe and by the glossy
+  /// one, which camera paths sample better than merging does.
+  float survival = 1, glossy_survival = 1;
   /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
   /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
   float evenness = 1;
@@ -33,7 +35,18 @@ struct PixelPlan {
   /// All samples of a pixel merge with the same light vertices, which count but once.
   float counted_area(float camera_samples) const { return merge_area / camera_samples; }
   float merge_radius() const { return std::sqrt(merge_area * inv_pi); }
-  float counted_survival() const { return survival * evenness; }
+  float counted_survival(float glossy_share) const {
+    return mixed(survival * evenness, glossy_survival, glossy_share);
+  }
+  /// In a direction in which the glossy lobe has that share of f, BsdfValues::glossy_share().
+  float survival_toward(float glossy_share) const {
+    return mixed(survival, glossy_survival, glossy_share);
+  }
+
+ private:
+  static float mixed(float diffuse, float glossy, float glossy_share) {
+    return diffuse + (glossy - diffuse) * glossy_share;
+  }
 };
 
 /// Camera samples per pixel, by blocks of pixels, of the passes of an epoch.
