@@ -167,11 +167,13 @@ void measure_glossy_merging(const LightVertices& light, const std::string& name,
   const SeenSurfaces seen;
   PixelPlan plan;
   plan.merge_area = float(per_point / double(light.path_count));
+  const LightTails tails(light, weights);
   const CameraPathInputs inputs{.scene = *scene,
                                 .emission = emission,
                                 .weights = weights,
                                 .light = light,
                                 .matt = no_matt,
+                                .tails = &tails,
                                 .seen = seen,
                                 .connection_scale = 1};
   double sum = 0;

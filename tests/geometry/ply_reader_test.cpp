@@ -260,7 +260,6 @@ TEST(PlyReader, AllFormsAreTheSameMesh) {
   EXPECT_NE(ply(flipped).positions[0], plain.positions[0]);
 }
 
-/// Many attributes of faces times one large polygon would be many times the file.
 /// Numbers are tested several at once, and the last of a piece apart.
 TEST(PlyReader, NoNumberOfAPieceGoesUntested) {
   const uint32_t vertices = 9, faces = 5;
@@ -289,6 +288,7 @@ TEST(PlyReader, NoNumberOfAPieceGoesUntested) {
     }
 }
 
+/// Many attributes of faces times one large polygon would be many times the file.
 TEST(PlyReader, AttributesOfFacesAreBounded) {
   const auto file = [](int attributes, int corners) {
     std::string text =

@@ -94,7 +94,7 @@ class DistortedFurnace : public testing::Test {
 TEST_F(DistortedFurnace, Path) { check("path", 20); }
 TEST_F(DistortedFurnace, LightTracer) { check("lighttracer", 220); }
 TEST_F(DistortedFurnace, Bdpt) { check("bdpt", 16); }
-TEST_F(DistortedFurnace, Auto) { check("auto", 40); }
+TEST_F(DistortedFurnace, Auto) { check("auto", 160); }
 
 // ---------------------------------------------------------------- light in a diffuse sphere
 

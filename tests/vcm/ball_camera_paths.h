@@ -32,12 +32,14 @@ class BallCameraPaths {
     splats_ = std::make_unique<SplatBuffer>(ball_.scene().film(), ComponentSet::all());
     light_ = ball_.trace(weights_, paths, number, most_events, *splats_, plans_, samples);
     matt_ = MattMerging(light_, weights_);
+    tails_ = LightTails(light_, weights_);
     inputs_ = std::make_unique<CameraPathInputs>(CameraPathInputs{
         .scene = ball_.scene(),
         .emission = ball_.emission(),
         .weights = weights_,
         .light = light_,
         .matt = matt_,
+        .tails = &tails_,
         .seen = plans_.seen(),
         .camera_samples = samples,
         .connection_scale = float(double(light_.connectible.size()) / double(paths)),
@@ -78,6 +80,7 @@ class BallCameraPaths {
   std::unique_ptr<SplatBuffer> splats_;
   LightVertices light_;
   MattMerging matt_;
+  LightTails tails_;
   std::unique_ptr<CameraPathInputs> inputs_;
 };
 

@@ -36,7 +36,9 @@ TEST_P(CameraPathTechniques, FindAllLight) {
   settings.connections = float(1 - HollowBall::albedo);  // over the vertices of a light path
   settings.merge_area = pi * sqr(0.06f);
   settings.accepted_area = 0.05f;
-  BallCameraPaths paths(ball, PathWeights(settings), {settings.merge_area, 0.6f, 1.2f, 3});
+  BallCameraPaths paths(
+      ball, PathWeights(settings),
+      {.merge_area = settings.merge_area, .survival = 0.6f, .evenness = 1.2f, .light_samples = 3});
   RunningStatistics direct, indirect;
   for (uint32_t number = 0; number < measured_passes; ++number) {
     paths.begin(light_paths, number, 1 << 20);

@@ -184,7 +184,7 @@ TEST(VcmPlans, SettleByWhatIsChosen) {
   one.probes.pop_back();
   one.areas.pop_back();
   plans.pilot = std::make_shared<const VcmPilot>(one);
-  const std::vector<PixelPlan> disks{{1.5f, 0.7f, 3}};
+  const std::vector<PixelPlan> disks{{.merge_area = 1.5f, .survival = 0.7f, .evenness = 3}};
   std::vector<PixelPlan> expected = disks;
   const Efficiency by_hand = choose_plans(one.probes, one.costs, {{0.75, 4}}, {}, expected);
   const Efficiency settled = plans.settle(disks, 0.25f);
@@ -280,6 +280,12 @@ TEST(Efficiency, StatisticsAreAddedByWeight) {
   other.merged = 7;
   other.rays = 8;
   other.rays_beyond = 9;
+  other.glossy_squares[3] = 12;
+  other.glossy_merged_alone = 13;
+  other.glossy_rays_beyond = 14;
+  other.single_direct_variance = 15;
+  other.ungathered.glossy_squares[4] = 16;
+  other.ungathered.glossy_merged_alone = 17;
   sum.add(other, 0.5);
   sum.add(other, 2);
   EXPECT_EQ(sum.squares[7], 2.5);
@@ -294,6 +300,16 @@ TEST(Efficiency, StatisticsAreAddedByWeight) {
   EXPECT_EQ(sum.merged, 17.5);
   EXPECT_EQ(sum.rays, 20);
   EXPECT_EQ(sum.rays_beyond, 22.5);
+  EXPECT_EQ(sum.glossy_squares[3], 30);
+  EXPECT_EQ(sum.glossy_merged_alone, 32.5);
+  EXPECT_EQ(sum.glossy_rays_beyond, 35);
+  EXPECT_EQ(sum.single_direct_variance, 37.5);
+  EXPECT_EQ(sum.ungathered.glossy_squares[4], 40);
+  EXPECT_EQ(sum.ungathered.glossy_merged_alone, 42.5);
+  // With a cache, what it does not have is left of both lobes.
+  EXPECT_EQ(sum.with_cache(64).glossy_squares[3], 0);
+  EXPECT_EQ(sum.with_cache(64).glossy_squares[4], 40);
+  EXPECT_EQ(sum.with_cache(64).glossy_merged_alone, 42.5);
 }
 
 }  // namespace

@@ -221,7 +221,7 @@ TEST(WholePathWeights, NoticeWhatIsForgotten) {
   const Guided guided(lamps_in_a_room());
   // By one path in so many at least.
   const auto expect_noticed = [&](const std::string& name, const WholePathRules& camera,
-                                  uint64_t one_in = 20) {
+                                  int one_in = 20) {
     const Sums found = sums(guided.rules, camera, traced_paths / 4);
     EXPECT_GT(found.largest, 100 * weight_tolerance) << name;
     EXPECT_GT(found.off, found.paths / one_in) << name;

@@ -154,11 +154,13 @@ class SteeredWalk {
   SteeredWalk(const WholePathRules& rules, const WholePath& path, const LightVertices& light)
       : path_(path),
         matt_(light, rules.weights),
+        tails_(light, rules.weights),
         inputs_{.scene = rules.scene,
                 .emission = *rules.emission,
                 .weights = rules.weights,
                 .light = light,
                 .matt = matt_,
+                .tails = &tails_,
                 .seen = rules.plans.seen(),
                 .camera_samples = rules.camera_samples,
                 .connection_scale = 1,
@@ -197,6 +199,7 @@ class SteeredWalk {
  private:
   const WholePath& path_;
   MattMerging matt_;
+  LightTails tails_;
   CameraPathInputs inputs_;
   Sampler sampler_;
   SampleSink sink_;

@@ -32,9 +32,9 @@ constexpr float largest_exponent = 1e5f;
 /// cosⁿα from the distance to the lobe's middle, which keeps its precision at high exponents.
 float cos_power(const Vec3f& middle, const Vec3f& wi, float exponent) {
   const float half_distance_sq = 0.5f * length_sq(wi - middle);
-  // Far below the least float: libm takes its time there.
-  constexpr float least_log = 90;
-  if (half_distance_sq >= 1 || exponent * half_distance_sq > least_log) return 0;
+  // Below e⁻⁹⁰ floats are denormal or 0, for which libm takes its time.
+  constexpr float most_exponent = 90;
+  if (half_distance_sq >= 1 || exponent * half_distance_sq > most_exponent) return 0;
   return std::exp(exponent * std::log1p(-half_distance_sq));
 }
 

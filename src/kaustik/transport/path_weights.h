@@ -132,8 +132,9 @@ class PathWeights {
   /// `path`: as for merge(), with any one vertex as the camera half; pdf_camera_last for a density
   /// of 1 per solid angle. Adds what is merged beyond, from the vertex on.
   LightTail light_tail(const PathHalves& path, std::vector<LaterMerge>& merges) const;
-  /// The same as merge(path), from what is known of the light path: of its vertices only the number
-  /// matters, and pdf_camera_before_last does not. `merges` are those of the tail.
+  /// The same as merge(path), from what is known of the light path. Of its vertices only the number
+  /// is looked at and, if there are connections, whether the last is delta; pdf_camera_before_last
+  /// and pdf_next_event are not. `merges` are those of the tail.
   float merge(const PathHalves& path, const LightTail& tail,
               std::span<const LaterMerge> merges) const;
 

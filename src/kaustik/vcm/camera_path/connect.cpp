@@ -30,7 +30,7 @@ void connect_to(const ConnectibleVertex& to, const CameraPathInputs& in,
   const Vec3f direction = between * (1 / std::sqrt(distance_sq));
   const PathVertex& other_data = in.light.at(to.data);
   PathHalves path = vertices.halves();
-  if (const SurfaceVertex* at = vertex.surface())
+  if (const SurfaceVertex* at = vertex.surface(); at && vertices.is_at_first())
     path.first_survival = vertices.counted_survival_toward(at->values(direction));
   path.light = {in.light.vertices.data() + to.data.path, size_t(to.data.before) + 1};
   path.pdf_light_last =

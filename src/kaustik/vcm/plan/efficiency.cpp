@@ -13,9 +13,9 @@ namespace {
 /// Chances of going on, and numbers of lights that are sampled. Of two choices that are as good the
 /// first is taken: where pilot paths have met nothing it costs nothing to go on.
 constexpr std::array<double, 8> chances{1, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, double(least_survival)};
-/// Of the first so many of them glossy lobes choose. Where merging finds what they would, it leaves
-/// blotches, and single vertices that a pilot mostly does not happen upon: with chances as small as
-/// those of diffuse lobes errors were larger in all scenes that ship.
+/// Glossy lobes choose among the first of these. Where merging finds what they would, it leaves
+/// blotches, and single vertices that a pilot mostly does not happen upon: see
+/// docs/integrators/auto.md.
 constexpr size_t glossy_chances = 3;
 constexpr std::array<int, 5> light_counts{1, 2, 4, 8, PixelPlan::most_light_samples};
 /// Times as much as samples whose variance is their mean square, even samples count at most.
@@ -70,13 +70,13 @@ double evenness_at(const ProbeStatistics& probe, double chance) {
   return std::min(most_evenness, 1 / std::max(1e-9, 1 - chance * share));
 }
 
-double variance(const std::array<double, ProbeStatistics::bin_count>& of_both, double merged_alone,
+double variance(const std::array<double, ProbeStatistics::bin_count>& squares, double merged_alone,
                 double kappa, const MergeScale& scale) {
   const double nu = scale.area * scale.light_paths;
   double sum = merged_alone > 0 ? merged_alone / nu : 0.0;
   double merging = nu * std::ldexp(1.0, -ProbeStatistics::bin_of_one);
-  for (const double squares : of_both) {
-    sum += squares / (kappa + merging);
+  for (const double of_bin : squares) {
+    sum += of_bin / (kappa + merging);
     merging *= 2;
   }
   return sum;
@@ -227,7 +227,10 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   light_sample_rays += weight * other.light_sample_rays;
   for (size_t i = 0; i < squares.size(); ++i)
     ungathered.squares[i] += weight * other.ungathered.squares[i];
+  for (size_t i = 0; i < squares.size(); ++i)
+    ungathered.glossy_squares[i] += weight * other.ungathered.glossy_squares[i];
   ungathered.merged_alone += weight * other.ungathered.merged_alone;
+  ungathered.glossy_merged_alone += weight * other.ungathered.glossy_merged_alone;
   ungathered.path_mean_square += weight * other.ungathered.path_mean_square;
   ungathered.path_variance += weight * other.ungathered.path_variance;
   ungathered.merged += weight * other.ungathered.merged;
@@ -240,6 +243,8 @@ ProbeStatistics ProbeStatistics::with_cache(int gather_rays) const {
   ProbeStatistics rest = *this;
   rest.squares = ungathered.squares;
   rest.merged_alone = ungathered.merged_alone;
+  rest.glossy_squares = ungathered.glossy_squares;
+  rest.glossy_merged_alone = ungathered.glossy_merged_alone;
   rest.path_mean_square = ungathered.path_mean_square;
   rest.path_variance = ungathered.path_variance;
   rest.merged = ungathered.merged;

@@ -24,8 +24,8 @@ struct ProbeStatistics {
   double path_mean_square = 0, path_variance = 0;  ///< of what a camera path finds, but for what
                                                    ///< merging finds far more often
   /// Of direct light by camera samples that sample one light at the vertex, with the lamp that the
-  /// path meets next: the variance of the mean of a pass's samples of a pixel, times their number.
-  /// They stratify one another, …
+  /// path meets next: the variance of the mean of some samples of a pixel, 4 at most, times their
+  /// number. They stratify one another, …
   double direct_variance = 0;
   double single_direct_variance = 0;  ///< … that of one alone is larger …
   /// …, and this is the part of the latter that falls as 1/n where n lights are sampled there.
@@ -40,8 +40,9 @@ struct ProbeStatistics {
   /// `squares` … `path_variance` and `merged` without diffuse indirect light, where a cache may
   /// have it …
   struct Ungathered {
-    std::array<double, bin_count> squares{};
-    double merged_alone = 0, path_mean_square = 0, path_variance = 0, merged = 0;
+    std::array<double, bin_count> squares{}, glossy_squares{};
+    double merged_alone = 0, glossy_merged_alone = 0, path_mean_square = 0, path_variance = 0,
+           merged = 0;
   } ungathered;
   /// … and the variance of that light by one gather ray.
   double gather_variance = 0;

@@ -77,7 +77,9 @@ class Recorder final : public LightWeights {
     const double rest = light - gathered;
     gathered_ += gathered * even_share;
     ungathered_even_ += rest * even_share;
-    result_.ungathered.squares[bin] += (1 - glossy_share_) * rest * rest * share / paths_;
+    const double rest_squares = rest * rest * share / paths_;
+    result_.ungathered.squares[bin] += (1 - glossy_share_) * rest_squares;
+    result_.ungathered.glossy_squares[bin] += glossy_share_ * rest_squares;
   }
   /// A cache may have the diffuse indirect light of the probed vertex.
   void leave_to_cache(bool is_for_it) { is_for_cache_ = is_for_it; }
@@ -147,6 +149,7 @@ void add_merged(CameraPath& path, float samples, double light_share, ProbeStatis
       result.merged_alone += diffuse * squares;
       result.glossy_merged_alone += glossy * squares;
       result.ungathered.merged_alone += diffuse * rest * rest * light_share;
+      result.ungathered.glossy_merged_alone += glossy * rest * rest * light_share;
       result.radiance += light;
       continue;
     }
@@ -154,7 +157,9 @@ void add_merged(CameraPath& path, float samples, double light_share, ProbeStatis
     const auto bin = size_t(bin_of(ratio));
     result.squares[bin] += diffuse * squares * ratio * share;
     result.glossy_squares[bin] += glossy * squares * ratio * share;
-    result.ungathered.squares[bin] += diffuse * rest * rest * light_share * ratio * share;
+    const double rest_squares = rest * rest * light_share * ratio * share;
+    result.ungathered.squares[bin] += diffuse * rest_squares;
+    result.ungathered.glossy_squares[bin] += glossy * rest_squares;
     result.radiance += light * share;
   }
 }
@@ -201,12 +206,12 @@ double variance_of(double sum, double squares, double count) {
   return std::max(0.0, squares - sum * sum / count) / (count - 1);
 }
 
-/// Variance of values one by one, and in runs as long as a pass has samples of a pixel. Numbers of
-/// the sampler stratify one another within a run: the mean of so many values has less variance than
-/// that of independent ones.
+/// Variance of values one by one and of the means of runs of them. Numbers of the sampler stratify
+/// one another within a run: its mean has less variance than that of as many independent values.
 class RunVariance {
  public:
-  /// Of so many values, whose runs are to have `wanted`. There are two runs at least.
+  /// Of so many values. Runs are as long as a pass has samples of a pixel, `wanted`, but no longer
+  /// than half of the values: of 3 each is a run, and nothing stratifies.
   RunVariance(uint32_t values, double wanted) : values_(values) {
     while (2 * run_ <= wanted && 4 * run_ <= values) run_ *= 2;
   }
@@ -221,7 +226,7 @@ class RunVariance {
     in_run_ = 0;
   }
   double of_single() const { return variance_of(sum_, squares_, values_); }
-  /// Times values: what of_single() is where nothing stratifies.
+  /// Of a run's mean, times its length: the same as of_single() where nothing stratifies.
   double of_runs() const {
     const uint32_t runs = values_ / run_;
     return variance_of(runs_sum_, runs_squares_, runs) / run_;

@@ -113,7 +113,8 @@ std::string described(const VcmPlans& plans, double gain) {
                 gain)
           : std::string("they alone might not find all light");
   return fmt::format(
-      "auto: {:.3g} light paths per camera sample, camera paths go on in {:.0f} % of cases: {}",
+      "auto: {:.3g} light paths per camera sample, matt surfaces let camera paths go on in {:.0f} "
+      "% of cases: {}",
       plans.light_paths, 100 * going_on, why);
 }
 
