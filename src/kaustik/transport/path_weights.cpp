@@ -185,6 +185,7 @@ PathWeights::LightTail PathWeights::light_tail(const PathHalves& path,
   if (!(density > 0)) return tail;
   if (const float length = view.vertex(t + 1).mean_free_path; length > 0)
     tail.spread_length = length;
+  tail.connection = sqr(view.connection(1 / density, t));
   float ratio = 1 / density, spread = 1;
   for (size_t i = t + 1; i <= n; ++i) {
     ratio *= view.pdf_camera(i) / view.pdf_light(i);
@@ -212,13 +213,12 @@ float PathWeights::merge(const PathHalves& path, const LightTail& tail,
     if (spread_beyond * merge.spread < settings_.least_spread) break;
     beyond += merge.square;
   }
-  // reach() of the first vertex beyond, per solid angle, and from merging on unit_area() to here.
-  const float on_beyond = tail.to_previous > 0
-                              ? view.reach(t + 1) / tail.to_previous * scale * tail.pdf_light *
-                                    settings_.light_paths * unit_area()
-                              : 0.0f;
+  // From merging on unit_area() to here, and reach() of the first vertex beyond, per solid angle.
+  const float units = scale * tail.pdf_light * settings_.light_paths * unit_area();
+  const float on_beyond =
+      tail.to_previous > 0 ? view.reach(t + 1) / tail.to_previous * units : 0.0f;
   const float sum =
-      squares_at(view, t, scale, spread) + beyond * sqr(on_beyond) + squares_before(view, scale);
+      1 + tail.connection * sqr(units) + beyond * sqr(on_beyond) + squares_before(view, scale);
   return sum > 0 ? 1 / sum : 0.0f;
 }
 

@@ -117,9 +117,10 @@ class PathWeights {
   struct LightTail {
     float pdf_light = 0;    ///< of the vertex that merges …
     float to_previous = 0;  ///< … see PathVertex
-    /// Squared densities of what paths find by going on from there without merging: for a density
-    /// of 1 per solid angle to do so, relative to merging on unit_area().
-    float square = 0;
+    /// Squared densities relative to merging on unit_area(): of connecting it to the one before; of
+    /// what paths find by going on from there without merging, for a density of 1 per solid angle
+    /// to do so.
+    float connection = 0, square = 0;
     float spread_length = 1;  ///< mean free path of the vertex before, m; 1: it is on a surface
     uint32_t merges = 0;      ///< of the LaterMerge …
     uint32_t count = 0;       ///< … those from there on
@@ -132,9 +133,9 @@ class PathWeights {
   /// `path`: as for merge(), with any one vertex as the camera half; pdf_camera_last for a density
   /// of 1 per solid angle. Adds what is merged beyond, from the vertex on.
   LightTail light_tail(const PathHalves& path, std::vector<LaterMerge>& merges) const;
-  /// The same as merge(path), from what is known of the light path. Of its vertices only the number
-  /// is looked at and, if there are connections, whether the last is delta; pdf_camera_before_last
-  /// and pdf_next_event are not. `merges` are those of the tail.
+  /// The same as merge(path), from what is known of the light path: of its vertices only the number
+  /// is looked at, and neither are pdf_camera_before_last and pdf_next_event. `merges` are those of
+  /// the tail.
   float merge(const PathHalves& path, const LightTail& tail,
               std::span<const LaterMerge> merges) const;
 
