@@ -13,7 +13,7 @@ namespace {
 
 using namespace kaustik;
 
-constexpr int cells = 256, picture = 256, repeats = 5;
+constexpr int cells = 256, picture = 256, repeats = 31;
 
 /// A round cloud, frayed, with 0 outside of it; its inside is different in every cell.
 std::vector<float> cloud() {

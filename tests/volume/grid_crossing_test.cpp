@@ -83,28 +83,57 @@ TEST(GridCrossing, PiecesMakeUpTheLine) {
 }
 
 /// Bounds are those of the region: what lies between samples of neighbouring regions included.
-TEST(GridCrossing, ValuesAreThoseOfTheGridAndWithinBounds) {
+TEST(GridCrossing, BoundsHoldForTheValues) {
   int close = 0;
-  for (const Filter filter : {Filter::trilinear, Filter::nearest}) {
-    const GridVolume grid(rough_samples(), filter, GridVolume::Wrap::repeat, Transform());
-    for (const CrossedLine& line : crossed_lines(Transform())) {
-      GridCrossing crossing(grid, line.origin, line.direction, line.to);
-      GridCrossing::Piece piece{};
-      while (crossing.next(piece))
-        for (int i = 0; i < 20; ++i) {
-          const float place = piece.begin + (piece.end - piece.begin) * (float(i) + 0.5f) / 20;
-          const float value = crossing.value(piece, place);
-          const Vec3f at = line.origin + line.direction * crossing.distance(place);
-          if (filter == Filter::trilinear) {
-            ASSERT_NEAR(value, grid.value(at, 0), 2e-4f);
-            ASSERT_GE(grid.value(at, 0), piece.least - 2e-4f);
-            ASSERT_LE(grid.value(at, 0), piece.largest + 2e-4f);
-          }
-          close += value > 0.9f * piece.largest;
-        }
+  const GridVolume grid(rough_samples(), Filter::trilinear, GridVolume::Wrap::repeat, Transform());
+  for (const CrossedLine& line : crossed_lines(Transform())) {
+    GridCrossing crossing(grid, line.origin, line.direction, line.to);
+    GridCrossing::Piece piece{};
+    while (crossing.next(piece)) {
+      ASSERT_GE(piece.mean, piece.least);
+      ASSERT_LE(piece.mean, piece.largest);
+      for (int i = 0; i < 20; ++i) {
+        const float place = piece.begin + (piece.end - piece.begin) * (float(i) + 0.5f) / 20;
+        const float value = grid.value(line.origin + line.direction * crossing.distance(place), 0);
+        ASSERT_GE(value, piece.least - 2e-4f);
+        ASSERT_LE(value, piece.largest + 2e-4f);
+        close += value > 0.8f * piece.largest;
+      }
     }
   }
   EXPECT_GT(close, 50) << "bounds that nothing comes near";
+}
+
+/// Over all numbers that choose among them, and then what they leave is spread evenly.
+TEST(GridCrossing, SamplesHaveTheValueForTheirMean) {
+  constexpr int count = 1 << 14;
+  for (const Filter filter : {Filter::trilinear, Filter::nearest}) {
+    const GridVolume grid(rough_samples(), filter, GridVolume::Wrap::repeat, Transform());
+    const CrossedLine line = crossed_lines(Transform()).front();
+    GridCrossing crossing(grid, line.origin, line.direction, line.to);
+    GridCrossing::Piece piece{};
+    int differ = 0;
+    while (crossing.next(piece)) {
+      const float place = 0.5f * (piece.begin + piece.end);
+      double sum = 0;
+      std::vector<double> left_in(8, 0.0);
+      float u_of_first = 0;
+      const float first = *crossing.sample(place, u_of_first);
+      for (int i = 0; i < count; ++i) {
+        float u = (float(i) + 0.5f) / count;
+        const float sample = *crossing.sample(place, u);
+        sum += double(sample);
+        differ += sample != first;
+        ASSERT_GE(u, 0);
+        ASSERT_LT(u, 1);
+        ++left_in[size_t(u * 8)];
+      }
+      const Vec3f at = line.origin + line.direction * crossing.distance(place);
+      EXPECT_NEAR(sum / count, double(grid.value(at, 0)), 2e-3);
+      for (const double in_bin : left_in) EXPECT_NEAR(in_bin / count, 1.0 / 8, 2e-3);
+    }
+    EXPECT_EQ(differ > 0, filter == Filter::trilinear);
+  }
 }
 
 TEST(GridCrossing, SkipsWhatIsEmpty) {

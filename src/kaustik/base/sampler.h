@@ -48,6 +48,9 @@ class Sampler {
   float next_1d() { return next_2d().x; }
   /// In [0, 1)².
   Vec2f next_2d();
+  /// The same, but independent of what other indices have there: for numbers that nothing is gained
+  /// by stratifying. Takes less time.
+  Vec2f next_independent_2d();
 
   /// As next_2d(), where the numbers are not needed.
   void skip_pair() { ++pair_; }
@@ -93,14 +96,16 @@ class Sampler {
   uint32_t pair_ = 0;
 };
 
+inline Vec2f Sampler::next_independent_2d() {
+  using namespace sampler_details;
+  const uint64_t r = hash_mix(hash_mix(scramble_, pair_++), index_);
+  return {to_unit(uint32_t(r)), to_unit(uint32_t(r >> 32))};
+}
+
 inline Vec2f Sampler::next_2d() {
   using namespace sampler_details;
-  const uint32_t pair = pair_++;
-  const uint64_t h = hash_mix(scramble_, pair);
-  if (pair >= stratified_pairs) {
-    const uint64_t r = hash_mix(h, index_);
-    return {to_unit(uint32_t(r)), to_unit(uint32_t(r >> 32))};
-  }
+  if (pair_ >= stratified_pairs) return next_independent_2d();
+  const uint64_t h = hash_mix(scramble_, pair_++);
   // The shuffle of the index is itself an Owen scramble, so any run of 2^k indices stays a net.
   const uint32_t reversed = owen_hash_reversed(reversed_index_, uint32_t(h));
   const uint64_t seeds = h * 0xd1342543de82ef95ull + 1;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/base/fast_math.h"
+
 namespace kaustik {
 namespace {
 
@@ -27,22 +29,66 @@ Spectrum left_by_look(const Spectrum& extinction, float x) {
   return left;
 }
 
-float exponential(float u) { return -std::log1p(-u); }
+/// 1 − u is a float without rounding.
+float exponential(float u) { return -approximate_log(1 - u); }
 
-/// Independent optical depths, distributed exponentially.
-class Depths {
+/// Of a value at a place.
+struct Look {
+  float place;
+  const float* sample;
+  const GridCrossing::Piece* piece;
+  float u;  ///< uniform in [0, 1)
+  /// Independent of u; its mean is the value at the place.
+  float value() const { return std::clamp(*sample, piece->least, piece->largest); }
+};
+
+/// Looks that are distributed over a piece of a line with a rate of `rate`, 1/m. Each is prepared
+/// while the one before is used, for what it reads takes its time.
+class Looks {
  public:
-  explicit Depths(Sampler& numbers) : numbers_(numbers) {}
-  float next() {
-    if (!has_other_) two_ = numbers_.next_2d();
-    has_other_ = !has_other_;
-    return exponential(has_other_ ? two_.x : two_.y);
+  /// `depth`: rate times the way to the next look; at the end, to the next look beyond the piece.
+  Looks(const GridCrossing& crossing, const GridCrossing::Piece& piece, float rate, float& depth,
+        Sampler& numbers)
+      : crossing_(crossing),
+        piece_(piece),
+        rate_(rate),
+        depth_(depth),
+        numbers_(numbers),
+        place_(piece.begin) {
+    prepare();
+  }
+  bool next(Look& look) {
+    if (!is_prepared_) return false;
+    look = prepared_;
+    prepare();
+    return true;
   }
 
  private:
+  void prepare() {
+    const float left = rate_ * (piece_.end - place_);
+    is_prepared_ = depth_ < left;
+    if (!is_prepared_) {
+      depth_ -= left;
+      return;
+    }
+    place_ = std::min(place_ + depth_ / rate_, piece_.end);
+    Vec2f u = numbers_.next_independent_2d();
+    depth_ = exponential(u.y);
+    prepared_.place = place_;
+    prepared_.piece = &piece_;
+    prepared_.sample = crossing_.sample(place_, u.x);
+    prepared_.u = u.x;
+  }
+
+  const GridCrossing& crossing_;
+  const GridCrossing::Piece& piece_;
+  float rate_;
+  float& depth_;
   Sampler& numbers_;
-  Vec2f two_ = Vec2f(0, 0);
-  bool has_other_ = false;
+  float place_;
+  Look prepared_{};
+  bool is_prepared_ = false;
 };
 
 }  // namespace
@@ -52,18 +98,11 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
   float fewest = most;
   for (int lane = 0; lane < Spectrum::lane_count; ++lane)
     fewest = std::min(fewest, extinction[lane]);
-  Depths depths(numbers);
   float least_left = -1, to_look = -1;
-  float work = 0;      // in cells
-  Spectrum left(1);    // by looks
-  float integral = 0;  // what has been crossed without
-  const auto most_left = [&] { return left.max_lane() * std::exp(-fewest * integral); };
-  const auto may_end = [&] { return work > work_before_roulette; };
-  const auto is_given_up = [&] {
-    // exp(−x) ≥ 1 − x tells nearly always.
-    return may_end() && left.max_lane() * (1 - fewest * integral) <= least_left &&
-           most_left() <= least_left;
-  };
+  float work = 0;         // in cells
+  Spectrum left(1);       // by looks
+  float integral = 0;     // of what is taken without
+  float lowest_left = 1;  // where roulette was played
   GridCrossing::Piece piece;
   while (crossing.next(piece)) {
     if (least_left < 0) {
@@ -72,28 +111,25 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
       to_look = exponential(u.y);
     }
     const float length = piece.end - piece.begin;
-    const float unknown = most * (piece.largest - piece.least);
+    const float unknown = most * std::max(piece.largest - piece.mean, piece.mean - piece.least);
     if (is_followed(piece, unknown * length)) {
       integral += crossing.integral(piece);
       work += piece.cells;
     } else {
-      integral += piece.least * length;
-      float at = piece.begin;
-      while (to_look < unknown * (piece.end - at)) {
-        at = std::min(at + to_look / unknown, piece.end);
-        const float above = crossing.value(piece, at) - piece.least;
-        left *= left_by_look(extinction, above / unknown);
+      integral += piece.mean * length;
+      Looks looks(crossing, piece, unknown, to_look, numbers);
+      for (Look look; looks.next(look);) {
+        left *= left_by_look(extinction, (look.value() - piece.mean) / unknown);
         work += cells_per_look;
-        if (is_given_up()) return Spectrum();
-        to_look = depths.next();
       }
-      to_look -= unknown * (piece.end - at);
     }
-    if (is_given_up()) return Spectrum();
+    if (work > work_before_roulette) {
+      lowest_left = std::min(lowest_left, left.max_lane() * std::exp(-fewest * integral));
+      if (lowest_left <= least_left) return Spectrum();
+    }
   }
-  const float chance = may_end() ? most_left() / least_sure : 1;
   left *= exp(extinction * -integral);
-  return chance < 1 ? left * (1 / chance) : left;
+  return lowest_left < least_sure ? left * (least_sure / lowest_left) : left;
 }
 
 TrackedFlight tracked_flight(GridCrossing crossing, const Spectrum& extinction, int lane,
@@ -118,18 +154,12 @@ TrackedFlight tracked_flight(GridCrossing crossing, const Spectrum& extinction, 
       depth = std::max(0.0f, depth - chosen * reach.integral);
       continue;
     }
-    float at = piece.begin;
-    while (depth < densest * (piece.end - at)) {
-      at = std::min(at + depth / densest, piece.end);
-      const Vec2f u = numbers.next_2d();
-      const float threshold = u.x * densest;
-      if (threshold < chosen * piece.least) return collided(at);
-      const float value = crossing.value(piece, at);
-      if (threshold < chosen * value) return collided(at);
+    Looks looks(crossing, piece, densest, depth, numbers);
+    for (Look look; looks.next(look);) {
+      const float value = look.value();
+      if (look.u < chosen * value / densest) return collided(look.place);
       flight.left *= left_by_look(extinction, value / densest);
-      depth = exponential(u.y);
     }
-    depth -= densest * (piece.end - at);
   }
   flight.left *= exp(extinction * -integral);
   return flight;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace kaustik {
 namespace {
@@ -70,25 +71,35 @@ GridVolume::GridVolume(const VolumeSamples& samples, Filter filter, Wrap wrap,
 }
 
 GridVolume::Bounds GridVolume::bounds_of(const Brick& brick) const {
-  if (brick.block == uniform) return {brick.value, brick.value};
+  if (brick.block == uniform) return {brick.value, brick.value, brick.value};
   const float* first = values_.data() + size_t(brick.block) * block_values();
-  const auto [least, largest] = std::minmax_element(first, first + block_values());
-  return {*least, *largest};
+  const float* last = first + block_values();
+  const auto [least, largest] = std::minmax_element(first, last);
+  const double sum = std::accumulate(first, last, 0.0);
+  return {*least, *largest, float(sum / double(block_values()))};
 }
 
 void GridVolume::find_bounds() {
   constexpr float none = std::numeric_limits<float>::infinity();
-  bounds_.assign(region_index(0, 0, regions_along_[2]), {none, -none});
+  bounds_.assign(region_index(0, 0, regions_along_[2]), {none, -none, 0});
+  std::vector<int> bricks_in(bounds_.size(), 0);
   constexpr int to_region = region_shift - brick_shift;
   size_t brick = 0;
   for (int z = 0; z < bricks_along_[2]; ++z)
     for (int y = 0; y < bricks_along_[1]; ++y)
       for (int x = 0; x < bricks_along_[0]; ++x) {
         const Bounds of_brick = bounds_of(bricks_[brick++]);
-        Bounds& bounds = bounds_[region_index(x >> to_region, y >> to_region, z >> to_region)];
+        const size_t region = region_index(x >> to_region, y >> to_region, z >> to_region);
+        Bounds& bounds = bounds_[region];
         bounds.least = std::min(bounds.least, of_brick.least);
         bounds.largest = std::max(bounds.largest, of_brick.largest);
+        bounds.mean += of_brick.mean;
+        ++bricks_in[region];
       }
+  for (size_t i = 0; i < bounds_.size(); ++i) {
+    Bounds& bounds = bounds_[i];
+    bounds.mean = std::clamp(bounds.mean / float(bricks_in[i]), bounds.least, bounds.largest);
+  }
 }
 
 double GridVolume::most_kept_values(const VolumeSamples& samples, Filter filter) {
@@ -139,20 +150,32 @@ float GridVolume::wrapped(double at, int axis) const {
   return float(inside) + margin_;
 }
 
-float GridVolume::value_in_cells(const std::array<float, 3>& at, int channel) const {
-  int brick[3], local[3];
-  float share[3];
+/// The cell that a place in cells is in.
+struct GridVolume::Place {
+  const Brick* brick;
+  int local[3];    ///< number of the cell in its brick
+  float share[3];  ///< how far the place is on the way to the next cell
+};
+
+GridVolume::Place GridVolume::place_in_cells(const std::array<float, 3>& at) const {
+  Place place;
+  int brick[3];
   for (size_t axis = 0; axis < 3; ++axis) {
     const int cell = std::clamp(int(at[axis]), 0, cells_[axis] - 1);
     brick[axis] = cell >> brick_shift;
-    local[axis] = cell & (brick_size - 1);
-    share[axis] = at[axis] - float(cell);
+    place.local[axis] = cell & (brick_size - 1);
+    place.share[axis] = at[axis] - float(cell);
   }
-  const Brick& in = bricks_[brick_index(brick[0], brick[1], brick[2])];
-  if (in.block == uniform) return in.value;
+  place.brick = &bricks_[brick_index(brick[0], brick[1], brick[2])];
+  return place;
+}
+
+float GridVolume::value_in_cells(const std::array<float, 3>& at, int channel) const {
+  const auto& [in, local, share] = place_in_cells(at);
+  if (in->block == uniform) return in->value;
   const size_t to_x = size_t(channels_), to_y = to_x * size_t(sides_[0]),
                to_z = to_y * size_t(sides_[1]);
-  const float* corner = values_.data() + size_t(in.block) * block_values() +
+  const float* corner = values_.data() + size_t(in->block) * block_values() +
                         size_t(local[2]) * to_z + size_t(local[1]) * to_y +
                         size_t(local[0]) * to_x + size_t(channel);
   if (filter_ == Filter::nearest) return *corner;
@@ -161,6 +184,20 @@ float GridVolume::value_in_cells(const std::array<float, 3>& at, int channel) co
   const float near = between(along_x(corner), along_x(corner + to_y), share[1]);
   const float far = between(along_x(corner + to_z), along_x(corner + to_z + to_y), share[1]);
   return between(near, far, share[2]);
+}
+
+const float* GridVolume::sample_in_cells(const std::array<float, 3>& at, float& u) const {
+  assert(channels_ == 1);
+  auto [in, local, share] = place_in_cells(at);
+  if (in->block == uniform) return &in->value;
+  if (filter_ == Filter::trilinear)
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool is_next = u < share[axis];
+      local[axis] += is_next ? 1 : 0;
+      u = is_next ? u / share[axis] : (u - share[axis]) / (1 - share[axis]);
+    }
+  return values_.data() + size_t(in->block) * block_values() +
+         size_t((local[2] * sides_[1] + local[1]) * sides_[0] + local[0]);
 }
 
 float GridVolume::value(const Vec3f& position, int channel) const {

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "kaustik/base/memory.h"
 #include "kaustik/base/transform.h"
 #include "kaustik/volume/line_knot.h"
 #include "kaustik/volume/volume_samples.h"
@@ -82,6 +83,7 @@ class GridVolume {
   };
   struct Bounds {
     float least = 0, largest = 0;
+    float mean = 0;  ///< about: of the samples that are kept, within both
   };
   /// The part of that in one cell or in a uniform brick.
   struct Piece {
@@ -112,6 +114,13 @@ class GridVolume {
   }
   float wrapped(double at, int axis) const;
   float value_in_cells(const std::array<float, 3>& at, int channel) const;
+  /// Of grids of one channel, one of the samples around the place: the mean over `u`, uniform in
+  /// [0, 1), is the value there. What it leaves of `u` is uniform as well. It goes to memory once,
+  /// where a value takes four rows (stochastic filtering: Pharr et al., "Filtering After Shading
+  /// With Stochastic Texture Filtering", 2024).
+  const float* sample_in_cells(const std::array<float, 3>& at, float& u) const;
+  struct Place;
+  Place place_in_cells(const std::array<float, 3>& at) const;
   std::optional<Line> line_in_box(const Vec3f& origin, const Vec3f& direction, float from,
                                   float to) const;
   template <bool trilinear, typename Step>
@@ -135,7 +144,7 @@ class GridVolume {
   std::array<int, 3> regions_along_{};
   std::vector<Brick> bricks_;
   std::vector<Bounds> bounds_;  ///< of regions, in grids of one channel
-  std::vector<float> values_;   ///< block by block, x fastest, channels of a place together
+  UnsetVector<float> values_;   ///< block by block, x fastest, channels of a place together
   float least_ = 0, largest_ = 0, cell_size_ = 0;
   std::vector<float> means_;
 };
