@@ -23,7 +23,7 @@ void use_box_filter(Object& object) {
 
 SceneRun::SceneRun(const std::string& name, const Changes& changes, RayObserver* observer)
     : description_(bench::load_shipped(name)) {
-  if (!changes.integrator.empty()) override_integrator(description_, changes.integrator);
+  override_integrator(description_, changes.integrator);
   if (changes.width > 0)
     override_property(description_, fmt::format("film.width={}", changes.width));
   if (changes.height > 0)

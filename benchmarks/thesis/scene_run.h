@@ -21,7 +21,7 @@ class RayCounter final : public RayObserver {
 
 /// What a run changes in a scene file.
 struct Changes {
-  std::string integrator;             ///< empty: the file's
+  std::string integrator = "photonmap";
   std::vector<std::string> settings;  ///< "object.parameter=value"
   int width = 0, height = 0;          ///< 0: the file's
   bool box_filter = false;            ///< pixels are means over their squares

@@ -197,8 +197,8 @@ TEST_F(Cloud, PathAndLightTracerAgreeLong) {
 
 TEST_F(Cloud, PathAndBdptAgree) {
   const TestScene scene(scene_text());
-  const RunningStatistics path = render(scene, "path", "", {200}).mean({"volume"});
-  const RunningStatistics bdpt = render(scene, "bdpt", "", {150}).mean({"volume"});
+  const RunningStatistics path = render(scene, "path", "", {240}).mean({"volume"});
+  const RunningStatistics bdpt = render(scene, "bdpt", "", {180}).mean({"volume"});
   expect_near_means("cloud, volume", Comparison(bdpt, path), 0.03, 0.01);
 }
 

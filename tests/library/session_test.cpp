@@ -82,10 +82,7 @@ int thread_count() {
   const int before = thread_count();
   const Scene scene =
       Scene::load_file(KAUSTIK_SOURCE_DIR "/scenes/cornell_spheres/cornell_spheres.xml")
-          .edit({{"film.width", 32},
-                 {"film.height", 24},
-                 {"integrator.caustic_photons", 4000},
-                 {"integrator.global_photons", 4000}});
+          .edit({{"film.width", 32}, {"film.height", 24}});
   Session session(scene, passes(1, 1, threads));
   session.start();
   int most = 0;

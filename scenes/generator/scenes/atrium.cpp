@@ -361,7 +361,6 @@ SceneFolder make_atrium(const SceneOptions& options) {
       "An atrium under a dome: a chandelier of 72 crystals with four lamps among "
       "them above a fountain, corridors to the left and right. After figure 8.11 of "
       "R. Schregle, \"Rendering with Photon Maps\" (1998). Lengths in metres, z is up.");
-  scene.add(object("integrator", "photonmap"));
   scene.add_view({.origin = {0.6, -5.55, 1.75}, .target = {-0.05, 1.0, 2.75}, .fov = 84});
   add_materials(scene);
   add_floor(scene);

@@ -106,7 +106,6 @@ SceneFolder make_gallery_1(const SceneOptions& options) {
                   .fov = 70,
                   .width = 800,
                   .height = 600});
-  scene.add(object("integrator", "photonmap"));
   add_materials(scene, {0.30, 0.40, 0.36});
   const Vec3d low(-3.6, -3.0, 0), high(3.4, 2.8, 3.2);
   add_room(scene, {low, high, 0.58, {-1.3, 1.1}, {-1.1, 0.85}});
@@ -141,7 +140,6 @@ SceneFolder make_gallery_2(const SceneOptions& options) {
                   .fov = 64,
                   .width = 800,
                   .height = 600});
-  scene.add(object("integrator", "photonmap"));
   add_materials(scene, {0.46, 0.13, 0.10});
   const Vec3d low(-2.9, -6, 0), high(2.9, 6, 3.6);
   add_room(scene, {low, high, 0.725, {}, {-4.2, -1.4, 1.4, 4.2}});

@@ -160,7 +160,6 @@ SceneFolder make_maze(const SceneOptions& options) {
   scene.add_view({.origin = {-0.22 * s, -0.84 * s, 0.95 * s},
                   .target = {-0.01 * s, -0.075 * s, 0},
                   .fov = 54});
-  scene.add(object("integrator", "photonmap"));
   add_maze_materials(scene);
   add_ground(scene, maze);
   add_walls(scene, maze);

@@ -154,7 +154,6 @@ SceneFolder make_museum(const SceneOptions& options) {
       "the evening sun through the windows of the corner. After figure 8.4 of R. "
       "Schregle, \"Rendering with Photon Maps\" (1998). Lengths in metres, z is up.");
   scene.add_view({.origin = {3.5, -4.9, 1.65}, .target = {-0.75, 1.6, 1.6}, .fov = 66});
-  scene.add(object("integrator", "photonmap"));
   add_museum_materials(scene);
   add_hall(scene);
   add_joinery(scene);

@@ -91,7 +91,6 @@ SceneFolder make_point_spotlight(const SceneOptions& options) {
                     "figure 8.2 of R. Schregle, \"Rendering with Photon Maps\" (1998). Lengths in "
                     "metres, z is up.");
   scene.add_view({.origin = {-0.45, -2.5, 1.35}, .target = {-0.08, 0.6, 1.02}, .fov = 60});
-  scene.add(object("integrator", "photonmap"));
   add_show_materials(scene);
   add_room(scene, options.seed);
   add_furniture(scene, options.seed);

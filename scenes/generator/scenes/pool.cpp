@@ -350,7 +350,6 @@ SceneFolder make_pool_above(const SceneOptions& options) {
                     "An indoor swimming pool: lights along the edge of the ceiling, lamps in the "
                     "basin under the water. After figure 8.8 of R. Schregle, \"Rendering with "
                     "Photon Maps\" (1998). Lengths in metres, z is up.");
-  scene.add(object("integrator", "photonmap"));
   add_haze(scene);
   scene.add_view({.origin = {-8.6, -3.4, 1.85}, .target = {0.6, 0.75, 0.1}, .fov = 70});
   build(scene, options, "bumped");
@@ -364,7 +363,6 @@ SceneFolder make_pool_below(const SceneOptions& options) {
                     "its caustics. After figure 8.9 of R. Schregle, \"Rendering with Photon Maps\" "
                     "(1998). Lengths in metres, z is up.");
   scene.share_files_of("pool_above");
-  scene.add(object("integrator", "photonmap"));
   add_haze(scene);
   scene.add_view(
       {.origin = {-4.9, -1.6, -0.85}, .target = {2.2, 0.75, -0.92}, .fov = 78, .medium = "haze"});
