@@ -391,6 +391,34 @@ TEST(LightSelector, LearnedChoicesAreReportedExactly) {
   }
 }
 
+/// A sun that shines into one half of a room is seldom chosen in the other, however bright it is;
+/// but it may be, for it may come through a gap that no probe has met.
+TEST(LightSelector, WhereTheSunNeverComesItIsSeldomChosen) {
+  Lights lights;
+  lights.push_back(make_light("point", {{"position", Value(Vec3d(5, 5, 5)), {}}}));
+  lights.push_back(make_light(
+      "directional", {{"direction", Value(Vec3d(0, 0, -1)), {}}, {"irradiance", Value(10.0), {}}}));
+  Random random(61);
+  std::vector<LightVisibility::Probe> probes;
+  std::vector<float> expected, found;
+  const Vec3f up(0, 0, 1);
+  for (int i = 0; i < 8192; ++i) {
+    const Vec3f place = random.next_3d() * 10.0f;
+    probes.push_back({Vec3f(place.x, place.y, 0), up});
+    for (const auto& light : lights) {
+      expected.push_back(light->expected_irradiance({probes.back().position, up}));
+      const bool arrives = !light->is_infinite() || place.x < 5;
+      found.push_back(arrives ? expected.back() : 0.0f);
+    }
+  }
+  LightSelector selector(lights);
+  EXPECT_GT(selector.probability({8, 5, 0}, up, 1), 0.7);
+  selector.learn({probes, lights.size(), expected, found});
+  EXPECT_GT(selector.probability({2, 5, 0}, up, 1), 0.9);
+  EXPECT_LT(selector.probability({8, 5, 0}, up, 1), 0.2);
+  EXPECT_GT(selector.probability({8, 5, 0}, up, 1), 0);
+}
+
 TEST(LightSelector, LearnsWhichLightsAreSeen) {
   Random places(53);
   Lights lights;

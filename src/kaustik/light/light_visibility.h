@@ -37,8 +37,9 @@ class LightVisibility {
   };
   struct Learning;
   void build(const Learning& from, uint32_t node, std::vector<uint32_t>& probes, size_t begin,
-             size_t end);
-  void add_leaf(const Learning& from, Node& node, const uint32_t* begin, const uint32_t* end);
+             size_t end, const std::vector<float>& prior);
+  static std::vector<float> shares_of(std::vector<uint32_t> probes, const Learning& from,
+                                      const std::vector<float>& prior);
 
   /// One tree for each way that normals mostly point to (±x, ±y, ±z), and one of all probes.
   static constexpr size_t tree_count = 7;
