@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "kaustik/light/choice_weights.h"
 #include "kaustik/light/light_tree.h"
@@ -36,7 +37,8 @@ class FewLights {
   size_t size() const { return lights_.size(); }
   bool empty() const { return lights_.empty(); }
 
-  /// `shares`: of what is expected of each light of the scene; null: all of it.
+  /// `shares`: of what is expected of each light of the scene, LightVisibility::shares(); null: all
+  /// of it.
   void weigh(const LightQuery& query, const float* shares, ChoiceWeights& weights) const {
     float* w = weights.values();
     const size_t count = lights_.size();
@@ -44,8 +46,7 @@ class FewLights {
     for (size_t i = block_.count; i < count; ++i)
       w[i] = std::max(0.0f, lights_[i].light->expected_irradiance(query));
     std::fill(w + count, w + EmissionBalls::padded(count), 0.0f);
-    if (shares)
-      for (size_t i = 0; i < count; ++i) w[i] *= shares[lights_[i].index];
+    if (shares) weigh_by(shares, w);
     weights.raise(count, shares ? minimum_learned_share : minimum_share_of_best);
     if (weights.sum() > 0) return;
     // Where none gives anything it does not matter which is chosen.
@@ -64,6 +65,20 @@ class FewLights {
   }
 
  private:
+  /// What no probe has found gets no more than the best of what probes have: of the sun so much is
+  /// expected that it would be chosen most often in rooms that it never comes to.
+  void weigh_by(const float* shares, float* w) const {
+    float best = 0;
+    for (size_t i = 0; i < lights_.size(); ++i) {
+      const float share = shares[lights_[i].index];
+      w[i] *= std::fabs(share);
+      if (share > 0) best = std::max(best, w[i]);
+    }
+    if (!(best > 0)) return;
+    for (size_t i = 0; i < lights_.size(); ++i)
+      if (shares[lights_[i].index] < 0) w[i] = std::min(w[i], best);
+  }
+
   struct Member {
     int index;
     const Light* light;

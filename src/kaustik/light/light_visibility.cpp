@@ -10,14 +10,10 @@ namespace kaustik {
 namespace {
 
 constexpr size_t largest_leaf = 32;
-/// What the probes of a region find is mixed with as much as half a probe that finds the share of
-/// the region around, so that light through a gap which no probe met keeps a chance; of the whole,
-/// with half a probe that finds a fifth of what it expects. With a fifth for small regions, too,
-/// the sun, of which so much is expected, would be chosen nearly always where it never comes to.
+/// What the probes of a leaf find is mixed with as much as half a probe that finds a fifth of what
+/// it expects, so that light through a gap which no probe met keeps a chance.
 constexpr float prior_probes = 0.5f;
 constexpr float prior_share = 0.2f;
-/// Regions around are the nodes with more probes than this whose children have no more.
-constexpr std::array<size_t, 2> probes_around{1024, 256};
 /// A sample may find more than the estimate expects, by any factor at the edge of a lamp: beyond
 /// this it says little of the region.
 constexpr float largest_ratio = 4;
@@ -52,36 +48,13 @@ LightVisibility::LightVisibility(const std::vector<Probe>& probes, size_t lights
     if (members[tree].empty()) continue;
     roots_[tree] = int32_t(nodes_.size());
     nodes_.emplace_back();
-    const std::vector<float> prior(lights, prior_share);
-    build(from, uint32_t(roots_[tree]), members[tree], 0, members[tree].size(), prior);
+    build(from, uint32_t(roots_[tree]), members[tree], 0, members[tree].size());
   }
-}
-
-/// By light, the share of what some probes expect that they find, by a prior share.
-std::vector<float> LightVisibility::shares_of(std::vector<uint32_t> probes, const Learning& from,
-                                              const std::vector<float>& prior) {
-  // In order, so that sums have the same bits.
-  std::sort(probes.begin(), probes.end());
-  std::vector<float> result;
-  for (size_t light = 0; light < from.lights; ++light) {
-    double expected = 0, found = 0;
-    int asked = 0;
-    for (const uint32_t probe : probes) {
-      const size_t i = probe * from.lights + light;
-      if (!(from.expected[i] > 0)) continue;
-      expected += double(from.expected[i]);
-      found += double(std::min(from.found[i], largest_ratio * from.expected[i]));
-      ++asked;
-    }
-    const double mixed = asked > 0 ? expected / asked * double(prior_probes) : 1.0;
-    result.push_back(float((found + double(prior[light]) * mixed) / (expected + mixed)));
-  }
-  return result;
 }
 
 /// Divides the probes across their widest side until few are left.
 void LightVisibility::build(const Learning& from, uint32_t node, std::vector<uint32_t>& probes,
-                            size_t begin, size_t end, const std::vector<float>& prior) {
+                            size_t begin, size_t end) {
   const auto at = [&](size_t i) { return probes.begin() + std::ptrdiff_t(i); };
   Bounds3f bounds;
   for (size_t i = begin; i < end; ++i) bounds.extendBy(from.probes[probes[i]].position);
@@ -96,12 +69,7 @@ void LightVisibility::build(const Learning& from, uint32_t node, std::vector<uin
     split = split_in_gap(std::move(places), least_relative_gap * size[axis]);
   }
   if (!split) {
-    nodes_[node] = {0, -1, uint32_t(shares_.size())};
-    // Of what is there in a part of the region only, the chance that brings the least variance goes
-    // by the root of the second moment, not by the mean: else there are bright dots where the edge
-    // of a shadow falls into a region that is mostly dark.
-    for (const float share : shares_of({probes.begin() + begin, probes.begin() + end}, from, prior))
-      shares_.push_back(std::min(1.0f, std::sqrt(share)));
+    add_leaf(from, nodes_[node], probes.data() + begin, probes.data() + end);
     return;
   }
   const auto second = std::stable_partition(at(begin), at(end),
@@ -110,16 +78,34 @@ void LightVisibility::build(const Learning& from, uint32_t node, std::vector<uin
   const auto first = uint32_t(nodes_.size());
   nodes_.resize(first + 2);
   nodes_[node] = {*split, axis, first};
-  const auto build_part = [&](uint32_t part, size_t from_probe, size_t to_probe) {
-    const bool begins_region = std::any_of(
-        probes_around.begin(), probes_around.end(),
-        [&](size_t most) { return end - begin > most && to_probe - from_probe <= most; });
-    build(from, part, probes, from_probe, to_probe,
-          begins_region ? shares_of({probes.begin() + begin, probes.begin() + end}, from, prior)
-                        : prior);
-  };
-  build_part(first, begin, middle);
-  build_part(first + 1, middle, end);
+  build(from, first, probes, begin, middle);
+  build(from, first + 1, probes, middle, end);
+}
+
+void LightVisibility::add_leaf(const Learning& from, Node& node, const uint32_t* begin,
+                               const uint32_t* end) {
+  // In order, so that sums have the same bits.
+  std::vector<uint32_t> probes(begin, end);
+  std::sort(probes.begin(), probes.end());
+  node = {0, -1, uint32_t(shares_.size())};
+  for (size_t light = 0; light < from.lights; ++light) {
+    double expected = 0, found = 0;
+    int asked = 0;
+    for (const uint32_t probe : probes) {
+      const size_t i = probe * from.lights + light;
+      if (!(from.expected[i] > 0)) continue;
+      expected += double(from.expected[i]);
+      found += double(std::min(from.found[i], largest_ratio * from.expected[i]));
+      ++asked;
+    }
+    const double prior = asked > 0 ? expected / asked * double(prior_probes) : 1.0;
+    const double share = (found + double(prior_share) * prior) / (expected + prior);
+    // Of what is there in a part of the region only, the chance that brings the least variance goes
+    // by the root of the second moment, not by the mean: else there are bright dots where the edge
+    // of a shadow falls into a region that is mostly dark.
+    const float root = std::min(1.0f, float(std::sqrt(share)));
+    shares_.push_back(found > 0 ? root : -root);
+  }
 }
 
 const float* LightVisibility::shares(const Vec3f& reference, const Vec3f& normal) const {

@@ -25,8 +25,9 @@ class LightVisibility {
                   const std::vector<float>& expected, const std::vector<float>& found);
 
   bool empty() const { return nodes_.empty(); }
-  /// The root of the share that arrives, by which a light is best chosen: by light, in (0, 1]; null
-  /// where no probe is known that faces a like way. `normal`: as of a LightQuery.
+  /// The root of the share that arrives, by which a light is best chosen: by light, in (0, 1];
+  /// where no probe has found any, what may come through gaps, with a minus. Null where no probe is
+  /// known that faces a like way. `normal`: as of a LightQuery.
   const float* shares(const Vec3f& reference, const Vec3f& normal) const;
 
  private:
@@ -37,9 +38,8 @@ class LightVisibility {
   };
   struct Learning;
   void build(const Learning& from, uint32_t node, std::vector<uint32_t>& probes, size_t begin,
-             size_t end, const std::vector<float>& prior);
-  static std::vector<float> shares_of(std::vector<uint32_t> probes, const Learning& from,
-                                      const std::vector<float>& prior);
+             size_t end);
+  void add_leaf(const Learning& from, Node& node, const uint32_t* begin, const uint32_t* end);
 
   /// One tree for each way that normals mostly point to (±x, ±y, ±z), and one of all probes.
   static constexpr size_t tree_count = 7;
