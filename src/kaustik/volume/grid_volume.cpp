@@ -171,19 +171,22 @@ GridVolume::Place GridVolume::place_in_cells(const std::array<float, 3>& at) con
 }
 
 float GridVolume::value_in_cells(const std::array<float, 3>& at, int channel) const {
-  const auto& [in, local, share] = place_in_cells(at);
-  if (in->block == uniform) return in->value;
+  const Place place = place_in_cells(at);
+  const Brick& in = *place.brick;
+  if (in.block == uniform) return in.value;
   const size_t to_x = size_t(channels_), to_y = to_x * size_t(sides_[0]),
                to_z = to_y * size_t(sides_[1]);
-  const float* corner = values_.data() + size_t(in->block) * block_values() +
-                        size_t(local[2]) * to_z + size_t(local[1]) * to_y +
-                        size_t(local[0]) * to_x + size_t(channel);
+  const float* corner = values_.data() + size_t(in.block) * block_values() +
+                        size_t(place.local[2]) * to_z + size_t(place.local[1]) * to_y +
+                        size_t(place.local[0]) * to_x + size_t(channel);
   if (filter_ == Filter::nearest) return *corner;
   const auto between = [](float a, float b, float t) { return a + (b - a) * t; };
-  const auto along_x = [&](const float* from) { return between(from[0], from[to_x], share[0]); };
-  const float near = between(along_x(corner), along_x(corner + to_y), share[1]);
-  const float far = between(along_x(corner + to_z), along_x(corner + to_z + to_y), share[1]);
-  return between(near, far, share[2]);
+  const auto along_x = [&](const float* from) {
+    return between(from[0], from[to_x], place.share[0]);
+  };
+  const float near = between(along_x(corner), along_x(corner + to_y), place.share[1]);
+  const float far = between(along_x(corner + to_z), along_x(corner + to_z + to_y), place.share[1]);
+  return between(near, far, place.share[2]);
 }
 
 const float* GridVolume::sample_in_cells(const std::array<float, 3>& at, float& u) const {
