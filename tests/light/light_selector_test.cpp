@@ -391,9 +391,9 @@ TEST(LightSelector, LearnedChoicesAreReportedExactly) {
   }
 }
 
-/// A sun that shines into one half of a room is chosen in the other no more often than the lamp that
-/// is seen there, however bright it is; but it may be, for it may come through a gap that no probe
-/// has met.
+/// A sun that shines into one half of a room is chosen in the other no more often than the lamp
+/// that is seen there, however bright it is; but it may be, for it may come through a gap that no
+/// probe has met.
 TEST(LightSelector, WhereTheSunNeverComesItTakesNoMoreThanTheBestLamp) {
   Lights lights;
   lights.push_back(make_light(
