@@ -85,7 +85,8 @@ Description described(const std::string& scene) {
   return description;
 }
 
-/// From the moment that a move is sent to the whole of the picture by photons, one after the other.
+/// From the moment that a move is sent to the whole of the picture by the scene's integrator, one
+/// after the other.
 void measure_moves(const std::string& scene, Viewer& viewer, const json& camera) {
   uint64_t number = 0;
   std::vector<double> seconds;

@@ -43,7 +43,7 @@ std::string stages(const Workplace& place) {
       {"cornell_box", "Cornell box, default", {}},
       {"cornell_box", "Cornell box, thesis, cache", thesis_cached},
       {"cornell_box", "Cornell box, thesis, no cache", thesis},
-      {"metal_ring", "metal ring, default", {}},
+      {"metal_ring", "metal ring, default, 200 found", {"integrator.caustic_neighbors=200"}},
       {"metal_ring",
        "metal ring, thesis, 200 found",
        {"integrator.preset=thesis", "integrator.irradiance_cache=true",

@@ -73,6 +73,7 @@ TEST(GridTracking, TransmittancesHaveTheirMeans) {
           tracked_transmittance(crossing_of_all(), extinction, numbers_of_try(82, i));
       for (int lane = 0; lane < 4; ++lane) {
         ASSERT_GE(left[lane], 0);
+        ASSERT_LE(left[lane], 1.0001f);
         lanes[size_t(lane)].add(double(left[lane]));
       }
     }

@@ -23,9 +23,9 @@ inline float approximate_atan2(float y, float x) {
   return y < 0 ? -angle : angle;
 }
 
-/// log x of a positive x that is not denormal, within 2e-7 (1 + |log x|): for random depths, of
-/// which a path in a cloud draws many. log(1 + t) = t − t²/2 + t³ P(t) on [√½ − 1, √2 − 1], with P
-/// fitted for the least largest error, which is 6.3e-8.
+/// log x of a finite, positive x that is not denormal, within 2e-7 (1 + |log x|): for random
+/// depths, of which a path in a cloud draws many. log(1 + t) = t − t²/2 + t³ P(t) on [√½ − 1, √2 −
+/// 1], with P fitted for the least largest error, which is 6.3e-8.
 inline float approximate_log(float x) {
   constexpr auto least_bits = std::bit_cast<int32_t>(0.70710678f);
   const int32_t bits = std::bit_cast<int32_t>(x) - least_bits;

@@ -48,8 +48,8 @@ class Sampler {
   float next_1d() { return next_2d().x; }
   /// In [0, 1)².
   Vec2f next_2d();
-  /// The same, but independent of what other indices have there: for numbers that nothing is gained
-  /// by stratifying. Takes less time.
+  /// The same, but independent of what other indices have there: where stratification gains
+  /// nothing. Takes less time.
   Vec2f next_independent_2d();
 
   /// As next_2d(), where the numbers are not needed.

@@ -25,9 +25,9 @@ class LightVisibility {
                   const std::vector<float>& expected, const std::vector<float>& found);
 
   bool empty() const { return nodes_.empty(); }
-  /// The root of the share that arrives, by which a light is best chosen: by light, in (0, 1];
-  /// where no probe has found any, what may come through gaps, with a minus. Null where no probe is
-  /// known that faces a like way. `normal`: as of a LightQuery.
+  /// By light, the root of the share that arrives, by which a light is best chosen, in (0, 1].
+  /// Negative where no probe has found any of it: its size is only a guess then. Null where no
+  /// probe is known that faces a like way. `normal`: as of a LightQuery.
   const float* shares(const Vec3f& reference, const Vec3f& normal) const;
 
  private:

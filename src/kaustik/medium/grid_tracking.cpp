@@ -99,10 +99,16 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
   for (int lane = 0; lane < Spectrum::lane_count; ++lane)
     fewest = std::min(fewest, extinction[lane]);
   float least_left = -1, to_look = -1;
-  float work = 0;         // in cells
-  Spectrum left(1);       // by looks
-  float integral = 0;     // of what is taken without
-  float lowest_left = 1;  // where roulette was played
+  float work = 0;      // in cells
+  Spectrum left(1);    // by looks
+  float integral = 0;  // what has been crossed without
+  const auto most_left = [&] { return left.max_lane() * std::exp(-fewest * integral); };
+  const auto may_end = [&] { return work > work_before_roulette; };
+  const auto is_given_up = [&] {
+    // exp(−x) ≥ 1 − x tells nearly always.
+    return may_end() && left.max_lane() * (1 - fewest * integral) <= least_left &&
+           most_left() <= least_left;
+  };
   GridCrossing::Piece piece;
   while (crossing.next(piece)) {
     if (least_left < 0) {
@@ -111,25 +117,24 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
       to_look = exponential(u.y);
     }
     const float length = piece.end - piece.begin;
-    const float unknown = most * std::max(piece.largest - piece.mean, piece.mean - piece.least);
+    const float unknown = most * (piece.largest - piece.least);
     if (is_followed(piece, unknown * length)) {
       integral += crossing.integral(piece);
       work += piece.cells;
     } else {
-      integral += piece.mean * length;
+      integral += piece.least * length;
       Looks looks(crossing, piece, unknown, to_look, numbers);
       for (Look look; looks.next(look);) {
-        left *= left_by_look(extinction, (look.value() - piece.mean) / unknown);
+        left *= left_by_look(extinction, (look.value() - piece.least) / unknown);
         work += cells_per_look;
+        if (is_given_up()) return Spectrum();
       }
     }
-    if (work > work_before_roulette) {
-      lowest_left = std::min(lowest_left, left.max_lane() * std::exp(-fewest * integral));
-      if (lowest_left <= least_left) return Spectrum();
-    }
+    if (is_given_up()) return Spectrum();
   }
+  const float chance = may_end() ? most_left() / least_sure : 1;
   left *= exp(extinction * -integral);
-  return lowest_left < least_sure ? left * (least_sure / lowest_left) : left;
+  return chance < 1 ? left * (1 / chance) : left;
 }
 
 TrackedFlight tracked_flight(GridCrossing crossing, const Spectrum& extinction, int lane,

@@ -17,7 +17,6 @@ class GridCrossing {
   struct Piece {
     float begin, end;      ///< places
     float least, largest;  ///< no value on the piece is less or larger
-    float mean;            ///< about, of values around, within these bounds
     float cells;           ///< how many cells the piece is about to cross, one at least
   };
   /// Moves on to the next piece that has a length and values other than 0; false where none is
@@ -70,8 +69,7 @@ inline bool GridCrossing::next(Piece& piece) {
       bounds_ = nullptr;
     }
     if (at_ > begin && (bounds.least != 0 || bounds.largest != 0)) {
-      piece = {begin,          at_,         bounds.least,
-               bounds.largest, bounds.mean, 1 + (at_ - begin) * cells_per_length_};
+      piece = {begin, at_, bounds.least, bounds.largest, 1 + (at_ - begin) * cells_per_length_};
       return true;
     }
   }

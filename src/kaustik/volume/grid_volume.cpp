@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace kaustik {
 namespace {
@@ -71,35 +70,25 @@ GridVolume::GridVolume(const VolumeSamples& samples, Filter filter, Wrap wrap,
 }
 
 GridVolume::Bounds GridVolume::bounds_of(const Brick& brick) const {
-  if (brick.block == uniform) return {brick.value, brick.value, brick.value};
+  if (brick.block == uniform) return {brick.value, brick.value};
   const float* first = values_.data() + size_t(brick.block) * block_values();
-  const float* last = first + block_values();
-  const auto [least, largest] = std::minmax_element(first, last);
-  const double sum = std::accumulate(first, last, 0.0);
-  return {*least, *largest, float(sum / double(block_values()))};
+  const auto [least, largest] = std::minmax_element(first, first + block_values());
+  return {*least, *largest};
 }
 
 void GridVolume::find_bounds() {
   constexpr float none = std::numeric_limits<float>::infinity();
-  bounds_.assign(region_index(0, 0, regions_along_[2]), {none, -none, 0});
-  std::vector<int> bricks_in(bounds_.size(), 0);
+  bounds_.assign(region_index(0, 0, regions_along_[2]), {none, -none});
   constexpr int to_region = region_shift - brick_shift;
   size_t brick = 0;
   for (int z = 0; z < bricks_along_[2]; ++z)
     for (int y = 0; y < bricks_along_[1]; ++y)
       for (int x = 0; x < bricks_along_[0]; ++x) {
         const Bounds of_brick = bounds_of(bricks_[brick++]);
-        const size_t region = region_index(x >> to_region, y >> to_region, z >> to_region);
-        Bounds& bounds = bounds_[region];
+        Bounds& bounds = bounds_[region_index(x >> to_region, y >> to_region, z >> to_region)];
         bounds.least = std::min(bounds.least, of_brick.least);
         bounds.largest = std::max(bounds.largest, of_brick.largest);
-        bounds.mean += of_brick.mean;
-        ++bricks_in[region];
       }
-  for (size_t i = 0; i < bounds_.size(); ++i) {
-    Bounds& bounds = bounds_[i];
-    bounds.mean = std::clamp(bounds.mean / float(bricks_in[i]), bounds.least, bounds.largest);
-  }
 }
 
 double GridVolume::most_kept_values(const VolumeSamples& samples, Filter filter) {

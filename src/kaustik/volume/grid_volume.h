@@ -83,7 +83,6 @@ class GridVolume {
   };
   struct Bounds {
     float least = 0, largest = 0;
-    float mean = 0;  ///< about: of the samples that are kept, within both
   };
   /// The part of that in one cell or in a uniform brick.
   struct Piece {
