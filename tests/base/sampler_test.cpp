@@ -214,5 +214,15 @@ TEST(sampler, stratification_pays) {
   EXPECT_GT(z_test_p_value(random, 0.25), 1e-4);
 }
 
+/// They are the numbers that deep pairs have anyway; a pair each.
+TEST(sampler, independent_numbers_are_those_of_deep_pairs) {
+  Sampler deep(5, 3), independent(5, 3);
+  for (uint32_t i = 0; i < Sampler::stratified_pairs; ++i) {
+    const Vec2f u = deep.next_2d(), v = independent.next_independent_2d();
+    EXPECT_NE(u, v) << i;
+  }
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(deep.next_2d(), independent.next_independent_2d());
+}
+
 }  // namespace
 }  // namespace kaustik

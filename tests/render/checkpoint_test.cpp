@@ -13,6 +13,7 @@
 #include "kaustik/base/file.h"
 #include "kaustik/render/packed_sums.h"
 #include "kaustik/render/session.h"
+#include "tests/render/glass_ball_scene.h"
 #include "tests/support/measure.h"
 #include "tests/support/pass_of.h"
 #include "tests/support/scene_text.h"
@@ -23,22 +24,13 @@ namespace {
 
 using namespace test;
 
-/// A glass ball over a floor: every component but media.
 const TestScene& little_scene() {
-  static const TestScene scene(
-      camera("0, -4, 2", "0, 0, 0.5", 45, 8) + flat("rectangle", scale("3"), diffuse("0.5")) +
-      sphere("0, 0, 0.6", 0.6, glass()) +
-      flat("rectangle", scale("0.5") + rotate("1, 0, 0", 180) + translate("0, 0, 3"),
-           area_light("9")));
+  static const TestScene scene(glass_ball_scene(8));
   return scene;
 }
 
 std::unique_ptr<Integrator> little_integrator(const std::string& type) {
-  std::string parameters;
-  if (type == "photonmap")
-    parameters =
-        set("global_photons", 2000) + set("caustic_photons", 2000) + set("cache_samples", 16);
-  return little_scene().integrator(type, parameters);
+  return quick_integrator(little_scene(), type);
 }
 
 SessionSettings settings_for(PassRange passes) {

@@ -10,6 +10,7 @@
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/session.h"
+#include "tests/render/glass_ball_scene.h"
 #include "tests/support/measure.h"
 #include "tests/support/pass_of.h"
 #include "tests/support/scene_text.h"
@@ -108,22 +109,14 @@ inline float channel_at(const Image& image, int x, int y, const std::string& cha
   return image.at(x, y, image.find_channel(channel));
 }
 
-/// A glass ball over a floor: every component but media.
 inline const TestScene& ball() {
-  static const TestScene scene(
-      camera("0, -4, 2", "0, 0, 0.5", 45, 24) + flat("rectangle", scale("3"), diffuse("0.5")) +
-      sphere("0, 0, 0.6", 0.6, glass()) +
-      flat("rectangle", scale("0.5") + rotate("1, 0, 0", 180) + translate("0, 0, 3"),
-           area_light("9")));
+  static const TestScene scene(glass_ball_scene(24));
   return scene;
 }
 
 inline std::unique_ptr<Integrator> integrator_of(const std::string& type,
-                                                 std::string parameters = "") {
-  if (type == "photonmap")
-    parameters +=
-        set("global_photons", 2000) + set("caustic_photons", 2000) + set("cache_samples", 16);
-  return ball().integrator(type, parameters);
+                                                 const std::string& parameters = "") {
+  return quick_integrator(ball(), type, parameters);
 }
 
 inline constexpr PixelRegion floor_region{5, 12, 13, 9};

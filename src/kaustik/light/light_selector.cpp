@@ -68,13 +68,14 @@ class FewLights {
   /// What no probe has found gets no more than the best of what probes have: of the sun so much is
   /// expected that it would be chosen most often in rooms that it never comes to.
   void weigh_by(const float* shares, float* w) const {
-    float best = 0;
+    float best = 0, best_guess = 0;
     for (size_t i = 0; i < lights_.size(); ++i) {
       const float share = shares[lights_[i].index];
       w[i] *= std::fabs(share);
-      if (share > 0) best = std::max(best, w[i]);
+      float& best_of_kind = share > 0 ? best : best_guess;
+      best_of_kind = std::max(best_of_kind, w[i]);
     }
-    if (!(best > 0)) return;
+    if (!(best > 0 && best_guess > best)) return;
     for (size_t i = 0; i < lights_.size(); ++i)
       if (shares[lights_[i].index] < 0) w[i] = std::min(w[i], best);
   }
