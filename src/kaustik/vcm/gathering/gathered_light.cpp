@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kaustik/photon/coverage/merge_disk.h"
+#include "kaustik/photon/lane_draw.h"
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/roulette.h"
 #include "kaustik/transport/travel.h"
@@ -41,23 +42,38 @@ Spectrum GatheredLight::direct_light(const SurfaceVertex& vertex, const PathStat
                                         sampler, reflect);
 }
 
-Spectrum GatheredLight::focused_light(const SurfaceVertex& vertex, int events) const {
+Spectrum GatheredLight::focused_light(const SurfaceVertex& vertex, int events, Sampler numbers,
+                                      uint64_t& rays, Scratch& scratch) const {
   if (in_.focused.empty() || !(in_.merge_radius_sq > 0)) return {};
-  const MergeDisk disk(vertex, std::sqrt(in_.merge_radius_sq));
+  const float radius = std::sqrt(in_.merge_radius_sq);
+  const MergeDisk disk(vertex, radius);
   const bool both_sides = disk.both_sides();
+  struct Part {
+    Vec3f offset;
+    Spectrum light;
+  };
+  const auto list = scratch.list<Part>();
   Spectrum sum;
-  in_.focused.within(
-      vertex.position(), both_sides ? vertex.point().ng : disk.side(), both_sides,
-      in_.merge_radius_sq, [&](uint32_t index, float) {
-        const LightVertexData& data = in_.focused.tree().data(index);
-        if (events + int(data.before) > in_.maximum_events) return;
-        const float share =
-            disk.share(in_.focused.tree().key(index) - vertex.position(), data.side);
-        if (!(share > 0)) return;
-        const Vec3f wi = data.direction.unpack();
-        const float factor = vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f;
-        sum += vertex.eval(wi, Lobes::diffuse) * data.flux.spectrum() * (share * factor);
-      });
+  in_.focused.within(vertex.position(), both_sides ? vertex.point().ng : disk.side(), both_sides,
+                     in_.merge_radius_sq, [&](uint32_t index, float) {
+                       const LightVertexData& data = in_.focused.tree().data(index);
+                       if (events + int(data.before) > in_.maximum_events) return;
+                       const Vec3f offset = in_.focused.tree().key(index) - vertex.position();
+                       const float share = disk.share(offset, data.side);
+                       if (!(share > 0)) return;
+                       const Vec3f wi = data.direction.unpack();
+                       const float factor =
+                           vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f;
+                       list->push_back({offset, vertex.eval(wi, Lobes::diffuse) *
+                                                    data.flux.spectrum() * (share * factor)});
+                       sum += list->back().light;
+                     });
+  if (sum.is_zero()) return sum;
+  // One of them tells whether it is hidden: behind a thin wall, say.
+  LaneDraw draw(sum, numbers.next_1d());
+  for (size_t i = 0; i < list->size() && !draw.is_decided(); ++i) draw.offer(i, (*list)[i].light);
+  const DiskCoverage covered(in_.scene, disk, rays);
+  sum = draw.remaining(sum, [&](size_t i) { return covered.reaches(radius, (*list)[i].offset); });
   return sum * (1 / (pi * in_.merge_radius_sq * float(in_.light.path_count)));
 }
 
@@ -90,7 +106,8 @@ RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
     Lobes traced = vertex.lobes();
     if (any(vertex.lobes() & Lobes::diffuse)) {
       Spectrum sent = direct_light(vertex, state, sampler, rays);
-      sent += focused_light(vertex, state.depth + 1);
+      sent +=
+          focused_light(vertex, state.depth + 1, sampler.fork(Fork::merge_sight), rays, scratch);
       Spectrum irradiance;
       if (vertex.is_lambertian() && !vertex.transmits() && !vertex.has_relief() &&
           scattered_.lookup(vertex.position(), side_of(vertex), since_event, scratch, irradiance)) {

@@ -44,7 +44,9 @@ class GatheredLight final : public RadianceSource {
  private:
   Spectrum direct_light(const SurfaceVertex& vertex, const PathState& state, Sampler& sampler,
                         uint64_t& rays) const;
-  Spectrum focused_light(const SurfaceVertex& vertex, int events) const;
+  /// Of what is not hidden.
+  Spectrum focused_light(const SurfaceVertex& vertex, int events, Sampler numbers, uint64_t& rays,
+                         Scratch& scratch) const;
 
   GatherInputs in_;
   ScatteredLight scattered_;               ///< empty: it is not looked up
