@@ -94,6 +94,7 @@ double merged(const Scene& scene, int merge_neighbors) {
   VcmSettings settings(Arguments(ppm_info(), {}, {}, problems));
   settings.light_paths = 1;
   settings.merge_neighbors = merge_neighbors;
+  settings.learn_radii = false;
   const auto plain = std::make_shared<const LightPathEmission>(scene, settings.aim);
   const VcmPlans plans = *VcmPlanner(scene, settings, plain).make(samples, {}).plans;
   double sum = 0;
@@ -118,7 +119,7 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y) {
   return {mean_y - xy / xx * mean_x, xy / xx};
 }
 
-/// In the order of CostModel, then seconds of a ray.
+/// merging, merged_vertex, light_ray and gather_ray of CostModel, then seconds of a ray.
 using Parts = std::array<double, 5>;
 
 /// Seconds of a ray that gathers, with all that is done at its end.

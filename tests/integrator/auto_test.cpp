@@ -242,8 +242,8 @@ TEST(Auto, LeavesOutNoLight) {
 }
 
 /// Where light paths do not pay, finding that out and learning where samples go take at most a
-/// twentieth of the rays of 16 passes. There are no light paths then: all that is traced before
-/// samples is for that.
+/// tenth of the rays of 16 passes. There are no light paths then: all that is traced before samples
+/// is for that.
 TEST(Auto, PilotIsCheap) {
   const TestScene scene(ball_in_the_open(128));
   constexpr uint32_t passes = 16, samples = 4;
@@ -253,7 +253,7 @@ TEST(Auto, PilotIsCheap) {
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const auto state = integrator->prepare({0, pass, samples}, splats, {}, {});
     ASSERT_FALSE(state->report.decisions.empty());
-    ASSERT_TRUE(is_for_camera_alone(state->report.decisions[0]));
+    ASSERT_TRUE(is_for_camera_alone(state->report.decisions[0])) << state->report.decisions[0];
     spent += double(state->report.rays);
   }
   const auto without_learning = scene.integrator("auto", set("adaptive", false));
@@ -268,7 +268,7 @@ TEST(Auto, PilotIsCheap) {
   std::printf("  of all rays %.2f %% are the pilot's, %.2f %% are learned from\n",
               100 * pilot / all, 100 * (spent - pilot) / all);
   EXPECT_GT(pilot, 0);
-  EXPECT_LE(spent, 0.05 * all);
+  EXPECT_LE(spent, 0.1 * all);
 }
 
 TEST(Auto, MakesThePictureOfPathLong) {

@@ -1,6 +1,7 @@
 // The cache of indirect light in a furnace, where all of it is known.
 
 #include "kaustik/vcm/gathering/indirect_cache.h"
+#include "kaustik/vcm/plan/cache_trial.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -45,8 +46,7 @@ Served served_by(const Scene& scene, int maximum_events, uint32_t passes) {
                       nowhere);
       Spectrum radiance;
       EXPECT_TRUE(walk.advance() && IndirectCache::is_for(walk, any_number_of_events));
-      EXPECT_EQ(cache.serves(walk), cache.reflected(walk, radiance));
-      if (!cache.serves(walk)) continue;
+      if (!cache.reflected(walk, radiance)) continue;
       sum += double(radiance[0]);
       ++found;
     }
@@ -145,6 +145,59 @@ TEST(IndirectCache, HasTheLightThatMirrorsShow) {
     EXPECT_GT(served, 0.7 * mirrored);
     EXPECT_NEAR(sum / served, furnace_albedo * furnace_albedo / (1 - furnace_albedo), 0.05) << bsdf;
   }
+}
+
+/// What two caches with few gather rays tell of variance and cost is that of caches with as many as
+/// passes have.
+TEST(CacheTrial, KnowsTheVarianceOfCaches) {
+  const TestScene scene(camera("0.2, -0.1, -0.3", "1, 0.3, 0.2", 80, slow_build ? 96 : 192) +
+                        sphere("0, 0, 0", 1, diffuse("0.5, 0.5, 0.5"), true) +
+                        sphere("-0.4, 0.3, 0.1", 0.2f, area_light("1, 1, 1")));
+  const LightVertices no_light;
+  const SidedTree<LightVertexData> nothing_focused;
+  const GatherInputs inputs{.scene = scene.scene(), .light = no_light, .focused = nothing_focused};
+  const PixelPlans plans(scene.scene());
+  constexpr int gather_rays = 128;
+  TrialCaches trial_caches(inputs, plans, {});
+  const CacheTrial trial = trial_caches.next_round({});
+  EXPECT_EQ(trial.served.size(), plans.plans().size());
+  EXPECT_GT(trial.rays_per_ray, 0);
+  // The same at the probes, by first passes of other seeds.
+  const size_t probes = trial.served.size();
+  std::vector<RunningStatistics> light(probes);
+  double rays = 0;
+  constexpr uint32_t passes = slow_build ? 6 : 24;
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    IndirectCache cache(inputs, {5 + pass, 0, 1}, gather_rays);
+    cache.fill_round({});
+    rays += double(cache.rays()) / passes;
+    for (size_t i = 0; i < probes; ++i) {
+      Sampler numbers = Sampler::at(0, 0, Stream::camera, i, 0);
+      SampleSink nowhere{ComponentSet()};
+      CameraWalk walk(scene.scene(), plans.seen().probes()[i].raster, numbers, nowhere);
+      Spectrum radiance;
+      if (IndirectCache::advance_to_vertex(walk, any_number_of_events) &&
+          cache.reflected(walk, radiance))
+        light[i].add(double(radiance.sum()));
+    }
+  }
+  double expected = 0, found = 0, served = 0, by_light = 0;
+  for (size_t i = 0; i < probes; ++i) {
+    if (!trial.served[i] || light[i].count() < passes) continue;
+    ++served;
+    expected += double(trial.ray_variance[i]) / gather_rays;
+    by_light += double(trial.light_variance[i]);
+    found += light[i].variance();
+  }
+  EXPECT_GT(served, 30);
+  std::printf("  variance of a cache, by a trial %.3g, over that by passes, %.3g: %.2f\n", expected,
+              found, expected / found);
+  // Neighbours have their noise in common, which counts up to 2.7 times. More rays stratify one
+  // another better than few do.
+  EXPECT_GT(expected / found, 0.8);
+  EXPECT_LT(expected / found, 4);
+  EXPECT_EQ(by_light, 0);  // there are no light paths whose noise it could be
+  EXPECT_NEAR(trial.rays_per_ray * gather_rays / rays, 1, 0.4);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "kaustik/vcm/plan/pixel_plans.h"
 
+#include <array>
+#include <numbers>
 #include <random>
 
 #include "tests/support/measure.h"
@@ -205,6 +207,132 @@ TEST_F(PlanDiskBounds, OfBlocksBeside) {
   const SurfaceVertex floor = on_floor(-0.3f, 0.1f);
   EXPECT_TRUE(plans_.seen().disk_bounds(beside, floor, 0.1f).are_complete);
   expect_nothing_known(plans_.seen().disk_bounds(farther, floor, 0.1f));
+}
+
+/// Noise of every pixel's own counts once; what a picture shares counts three times as much as that
+/// of which filters of 9 and 81 pixels leave a ninth and an 81st.
+TEST(NoiseInCommon, CountsWhatFiltersLeave) {
+  EXPECT_NEAR(noise_in_common(0), 1, 1e-6);
+  EXPECT_NEAR(noise_in_common(1e9f), 3 / (1 + 1 / 9.0 + 1 / 81.0), 1e-4);
+  EXPECT_LT(noise_in_common(spread_of_disk(1)), noise_in_common(spread_of_disk(6)));
+}
+
+/// What is left of it by filters of 1, 3 and 9 pixels, where disks of `radius` pixels take the mean
+/// of random points by the weights of the kernel, over what is left of white noise.
+double measured_in_common(double radius) {
+  constexpr int side = 54, pictures = 40, density = 2;
+  const double reach = std::ceil(radius);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-reach, side + reach);
+  std::array<double, 3> left{};
+  for (int picture = 0; picture < pictures; ++picture) {
+    std::vector<double> value(side * side);
+    const auto points = int(density * sqr(side + 2 * reach));
+    for (int i = 0; i < points; ++i) {
+      const double px = place(random), py = place(random);
+      for (int y = std::max(0, int(py - reach)); y < std::min(side, int(py + reach + 1)); ++y)
+        for (int x = std::max(0, int(px - reach)); x < std::min(side, int(px + reach + 1)); ++x)
+          value[size_t(y * side + x)] +=
+              std::max(0.0, 1 - (sqr(x + 0.5 - px) + sqr(y + 0.5 - py)) / sqr(radius));
+    }
+    const double mean = density * std::numbers::pi * sqr(radius) / 2;
+    for (size_t k = 0; k < 3; ++k) {
+      const int box = std::array{1, 3, 9}[k], count = side / box;
+      for (int by = 0; by < count; ++by)
+        for (int bx = 0; bx < count; ++bx) {
+          double sum = 0;
+          for (int y = 0; y < box; ++y)
+            for (int x = 0; x < box; ++x)
+              sum += value[size_t((by * box + y) * side + bx * box + x)] - mean;
+          left[k] += sqr(sum / sqr(box)) / sqr(count) / pictures;
+        }
+    }
+  }
+  return (left[0] + left[1] + left[2]) / left[0] / (1 + 1 / 9.0 + 1 / 81.0);
+}
+
+TEST(NoiseInCommon, OfDisksIsThatOfPictures) {
+  for (const double radius : {1.0, 2.5, 6.0, 12.0})
+    EXPECT_NEAR(noise_in_common(spread_of_disk(float(radius))) / measured_in_common(radius), 1,
+                0.12)
+        << radius;
+}
+
+/// What all samples share, and what is not covered, counts for less in the weights of merging.
+TEST(PixelPlan, CountsAreaByCoverageAndWhatIsShared) {
+  const PixelPlan plan{.merge_area = 3, .covered = 0.5f, .merging_in_common = 2};
+  EXPECT_FLOAT_EQ(plan.counted_area(4), 3 * 0.5f / (4 * 2));
+}
+
+PixelPlan plan_of(const PixelPlans& plans, const Vec2f& raster, float shrinkage,
+                  const SurfaceVertex& vertex) {
+  const Vec3f& ng = vertex.point().ng;
+  return plans.at(raster, shrinkage, vertex.position(), vertex.on_front() ? ng : -ng);
+}
+
+/// A wall ahead, half of it hidden by a plate that stands a little before it, with an edge of its
+/// own that no probe shows.
+class PlansOfSurfaces : public testing::Test {
+ protected:
+  PlansOfSurfaces() : plans_(scene_.scene()) {
+    std::vector<PixelPlan> of_surfaces;
+    for (const PixelProbe& probe : plans_.seen().probes())
+      of_surfaces.push_back({.merge_area = probe.vertex.position().z > -1.95f ? 1.0f : 2.0f,
+                             .survival = 0.02f,
+                             .evenness = 3});
+    plans_ = plans_.with(of_surfaces);
+  }
+  /// What a ray at that place of the raster meets.
+  SurfaceVertex seen_at(const Vec2f& raster) const {
+    const Ray ray = scene_.scene().camera().sample_ray(raster, Camera::middle_of_lens());
+    Hit hit;
+    EXPECT_TRUE(scene_.scene().intersect(ray, hit));
+    return {scene_.scene(), ray, hit, TransportMode::radiance};
+  }
+
+  TestScene scene_{
+      camera("0, 0, 0", "0, 0, -1", 90, 32, "0, 1, 0") + constant_light(1) +
+      flat("rectangle", scale("9, 9, 1") + translate("0, 0, -2"), diffuse("0.5, 0.5, 0.5")) +
+      flat("rectangle", scale("1, 9, 1") + translate("-1.1, 0, -1.9"), diffuse("0.5, 0.5, 0.5"))};
+  PixelPlans plans_;
+};
+
+/// The plate ends at pixel 15.2, in a block whose probe shows the wall or the plate: either side
+/// has the plan of its own.
+TEST_F(PlansOfSurfaces, GoByTheProbeThatShowsTheSurface) {
+  for (const float x : {13.0f, 14.5f, 15.0f, 15.5f, 16.5f, 18.0f}) {
+    const Vec2f raster(x, 14.5f);
+    const SurfaceVertex vertex = seen_at(raster);
+    const bool is_plate = vertex.position().z > -1.95f;
+    EXPECT_EQ(is_plate, x < 15.2f);
+    EXPECT_EQ(plan_of(plans_, raster, 1, vertex).merge_area, is_plate ? 1 : 2) << x;
+    EXPECT_EQ(plan_of(plans_, raster, 0.5f, vertex).merge_area, is_plate ? 0.5f : 1) << x;
+    EXPECT_EQ(plan_of(plans_, raster, 1, vertex).survival, 0.02f);
+  }
+}
+
+/// Where a surface stands across all that the probes around show, disks are hardly wider than a
+/// pixel, and more paths go on.
+TEST_F(PlansOfSurfaces, AreCarefulOfWhatNoProbeShows) {
+  const TestScene bevel(camera("0, 0, 0", "0, 0, -1", 90, 32, "0, 1, 0") + constant_light(1) +
+                        flat("rectangle",
+                             scale("9, 9, 1") + rotate("0, 1, 0", 60) + translate("0, 0, -2"),
+                             diffuse("0.5, 0.5, 0.5")));
+  const Vec2f raster(17, 17);
+  const Ray ray = bevel.scene().camera().sample_ray(raster, Camera::middle_of_lens());
+  Hit hit;
+  ASSERT_TRUE(bevel.scene().intersect(ray, hit));
+  const SurfaceVertex vertex(bevel.scene(), ray, hit, TransportMode::radiance);
+  const PixelPlan plan = plan_of(plans_, raster, 1, vertex);
+  const float width = plans_.seen().probes()[plans_.seen().grid().index_at(raster)].pixel_width;
+  EXPECT_FLOAT_EQ(plan.merge_radius(), 1.5f * width);
+  EXPECT_GT(plan.survival, 0.3f);
+  EXPECT_EQ(plan.evenness, 1);
+  EXPECT_LT(plan.merging_in_common, 2);
+  // A radius that was asked for is a radius everywhere.
+  PixelPlans given = plans_;
+  given.choose_disks({}, 1, 30, 0.25f);
+  EXPECT_FLOAT_EQ(plan_of(given, raster, 1, vertex).merge_radius(), 0.25f);
 }
 
 }  // namespace

@@ -174,6 +174,14 @@ TEST(VcmPlans, ScalesAreRelativeToThePilot) {
   EXPECT_DOUBLE_EQ(scales[0].light_paths, 0);
 }
 
+/// How a disk of that area, m², around the only probe of `plans` differs from the pilot's.
+MergeScale scale_of(const VcmPlans& plans, double area) {
+  const double width = double(plans.pixels.seen().probes()[0].pixel_width);
+  const auto widths = float(std::sqrt(area / double(pi)) / width);
+  const double in_common = double(noise_in_common(spread_of_disk(widths)));
+  return {.area = area / 0.5, .light_paths = 4, .in_common = in_common};
+}
+
 /// Plans are chosen as choose_plans() does it for those scales.
 TEST(VcmPlans, SettleByWhatIsChosen) {
   VcmPlans plans = two_probes();
@@ -186,7 +194,8 @@ TEST(VcmPlans, SettleByWhatIsChosen) {
   plans.pilot = std::make_shared<const VcmPilot>(one);
   const std::vector<PixelPlan> disks{{.merge_area = 1.5f, .survival = 0.7f, .evenness = 3}};
   std::vector<PixelPlan> expected = disks;
-  const Efficiency by_hand = choose_plans(one.probes, one.costs, {{0.75, 4}}, {}, expected);
+  const Efficiency by_hand =
+      choose_plans(one.probes, one.costs, {scale_of(plans, 0.25 * 1.5)}, {}, expected);
   const Efficiency settled = plans.settle(disks, 0.25f);
   EXPECT_EQ(settled.squared_error, by_hand.squared_error);
   EXPECT_EQ(settled.rays, by_hand.rays);
@@ -202,7 +211,8 @@ TEST(VcmPlans, SettleByWhatIsChosen) {
   EXPECT_EQ(plans.pixels.plans()[0].light_samples, 1);
   EXPECT_LT(plans.pixels.plans()[0].survival, 1);
   plans.choices = {.survival = false, .light_samples = false};
-  const double of_all = 2 + 6 + rays_beside_camera_paths(one.probes, one.costs, {{0.75, 4}});
+  const double of_all =
+      2 + 6 + 3 * cost_model.merging + rays_beside_camera_paths(one.probes, one.costs, {{0.75, 4}});
   EXPECT_DOUBLE_EQ(plans.settle(disks, 0.25f).rays, of_all);
   EXPECT_EQ(plans.pixels.plans()[0].survival, 1);
 }
@@ -216,8 +226,8 @@ TEST(VcmPlans, SettleByWhatACacheLeaves) {
   one.probes.pop_back();
   one.areas.pop_back();
   one.probes[0].ungathered.squares[ProbeStatistics::bin_of_one] = 0.001;
-  one.probes[0].gather_variance = 2;
-  one.cache_trials[0] = {{1}, 0.1};
+  one.cache_trials[0] = {
+      .served = {1}, .ray_variance = {2}, .light_variance = {3}, .rays_per_ray = 4 * 0.1};
   EXPECT_TRUE(one.has_tried(0) && one.has_tried(1));
   EXPECT_FALSE(one.has_tried(2));
   plans.pilot = std::make_shared<const VcmPilot>(one);
@@ -228,10 +238,11 @@ TEST(VcmPlans, SettleByWhatACacheLeaves) {
   const Efficiency with = plans.settle(disks, 0.25f);
   EXPECT_DOUBLE_EQ(with.rays, without.rays + 10 * cost_model.gather_ray);
   // 4 samples, of which all go on; 4 times the light paths merge in 3/4 of the area.
-  const double relative = 1 / 1.01, nu = 0.75 * 4;
+  const double relative = 1 / 1.01;
+  const double nu = 0.75 * 4 / scale_of(plans, 0.25 * 1.5).in_common;
   const double direct = 1.0 / 4;
   EXPECT_NEAR(without.squared_error, (1 / (4 + 64 * nu) + direct) * relative, 1e-9);
-  const double gathered = 2.0 / 100;
+  const double gathered = 2.0 / 100 + 3.0 / 4;
   EXPECT_NEAR(with.squared_error, (0.001 / (4 + nu) + direct + gathered) * relative, 1e-9);
   // One probe stands for all.
   const Efficiency expected = plans.expected(disks, 0.25f);
@@ -307,9 +318,9 @@ TEST(Efficiency, StatisticsAreAddedByWeight) {
   EXPECT_EQ(sum.ungathered.glossy_squares[4], 40);
   EXPECT_EQ(sum.ungathered.glossy_merged_alone, 42.5);
   // With a cache, what it does not have is left of both lobes.
-  EXPECT_EQ(sum.with_cache(64).glossy_squares[3], 0);
-  EXPECT_EQ(sum.with_cache(64).glossy_squares[4], 40);
-  EXPECT_EQ(sum.with_cache(64).glossy_merged_alone, 42.5);
+  EXPECT_EQ(sum.with_cache(64, 0).glossy_squares[3], 0);
+  EXPECT_EQ(sum.with_cache(64, 0).glossy_squares[4], 40);
+  EXPECT_EQ(sum.with_cache(64, 0).glossy_merged_alone, 42.5);
 }
 
 }  // namespace

@@ -84,6 +84,8 @@ PixelPlans plans_of(const Scene& scene) {
     plan.survival = 0.1f + 0.9f * next();
     plan.glossy_survival = 1.1f - plan.survival;
     plan.evenness = 0.3f + 0.7f * next();
+    plan.covered = 0.2f + 0.8f * next();
+    plan.merging_in_common = 1 + next();
     plan.light_samples = 1 + int(4 * next());
   }
   return plain.with(std::move(different));
@@ -248,7 +250,7 @@ TEST(WholePathWeights, NoticeWhatIsForgotten) {
   for (PixelPlan& plan : plans) plan.glossy_survival = plan.survival;
   all_alike.plans = guided.rules.plans.with(std::move(plans));
   expect_noticed("without a chance of glossy lobes", all_alike, 50);  // few surfaces are glossy
-  expect_noticed("with other disks", with_plans(0, 3));
+  expect_noticed("with other disks", with_plans(0, 8));
 }
 
 }  // namespace

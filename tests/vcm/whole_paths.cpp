@@ -168,9 +168,11 @@ class Finder {
   bool lies_free(CameraWalk& walk, size_t t) const {
     size_t first = 1;
     while (step(first).delta) ++first;
-    const float radius =
-        std::sqrt(inv_pi * (t == first ? rules_.plans.at(path_.raster(), 1).merge_area
-                                       : rules_.weights.settings().merge_area));
+    const Vec3f side = MergeDisk(walk.vertex(), 1).side();
+    const float area =
+        t == first ? rules_.plans.at(path_.raster(), 1, walk.vertex().position(), side).merge_area
+                   : rules_.weights.settings().merge_area;
+    const float radius = std::sqrt(inv_pi * area);
     const DiskCoverage covered(rules_.scene, MergeDisk(walk.vertex(), radius), walk.rays());
     if (!(covered.clear_radius() >= radius)) return false;
     for (const float angle : {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f})

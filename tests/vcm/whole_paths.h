@@ -165,7 +165,8 @@ class SteeredWalk {
                 .camera_samples = rules.camera_samples,
                 .connection_scale = 1,
                 .merge_radius_sq = rules.weights.settings().merge_area * inv_pi,
-                .scattering = rules.scattering.get()},
+                .scattering = rules.scattering.get(),
+                .plans = &rules.plans},
         sampler_(Sampler::at(1, 0, Stream::camera, 0, 1)),
         sink_(ComponentSet::all()),
         camera_path_(inputs_, rules.plans.at(path.raster(), 1), path.raster(), sampler_, sink_) {}

@@ -96,6 +96,11 @@ void VcmPass::fill_cache(const std::stop_token& stop, PassReport& report) {
         "is too dark; look for lights or reflectances that are far too large");
 }
 
+bool VcmPass::goes_by_surfaces() const {
+  // A meter's pixels show all that lies around: no probe stands for much of that.
+  return plans_->techniques.merging && scene_.camera().traits().can_connect;
+}
+
 void VcmPass::sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) const {
   trace_camera_path({.scene = scene_,
                      .emission = *plans_->guides.emission,
@@ -116,6 +121,8 @@ void VcmPass::sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) co
                      .connections = settings_.connections,
                      .scattering = plans_->guides.scattering.get(),
                      .cache = cache_.get(),
+                     .plans = goes_by_surfaces() ? &plans_->pixels : nullptr,
+                     .shrinkage = shrinkage_,
                      .visibility = settings_.visibility},
                     plans_->pixels.at(raster, shrinkage_), raster, sampler, sink);
 }

@@ -44,6 +44,8 @@ class VcmPass {
  private:
   PathWeights make_weights() const;
   void fill_cache(const std::stop_token& stop, PassReport& report);
+  /// Whether first vertices choose their plans, PixelPlans::at().
+  bool goes_by_surfaces() const;
 
   /// Of the first vertices of paths that begin at gauges, as the plans have it.
   GaugeDisks make_gauge_disks(uint64_t& rays) const;

@@ -50,17 +50,20 @@ std::vector<Parameter> parameters(const Techniques& preset) {
                         "Vertices of light paths that each vertex of the camera's paths is "
                         "connected to.")
           .range(1, 1024),
-      integer_parameter("merge_neighbors", 30,
-                        "Vertices of light paths that the first radius of merging is made for.")
+      integer_parameter(
+          "merge_neighbors", 30,
+          "Vertices of light paths that the first radius of merging is made for, where radii "
+          "are not learned.")
           .range(1, 1 << 20),
-      number_parameter("radius", 0,
-                       "Radius of merging in the first pass; it shrinks from pass to pass. 0: from "
-                       "the size of the pixels and the density of the light paths.")
+      number_parameter(
+          "radius", 0,
+          "Radius of merging in the first pass; it shrinks from pass to pass. 0: it is "
+          "learned, or follows from the density of the light paths.")
           .range(0, 1e30)
           .in("m"),
       boolean_parameter("learn_radii", true,
-                        "Radii are learned from the light paths of the passes before; else those "
-                        "of the first pass shrink."),
+                        "Radii are learned from the light paths of a pilot and of the passes "
+                        "before; else those of the first pass shrink."),
       boolean_parameter("edges", true,
                         "Disks of merging end at the straight edges around them, with kernels that "
                         "light's gradient does not bias."),

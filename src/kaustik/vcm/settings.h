@@ -24,7 +24,7 @@ struct VcmSettings {
   int connections = 1;            ///< per vertex of the camera's path
   int merge_neighbors = 30;       ///< light vertices that the first radius is made for
   float radius = 0;         ///< of merging in pass 0, m; 0: from the pixels and the light paths
-  bool learn_radii = true;  ///< from the passes before; else the first pass's shrink
+  bool learn_radii = true;  ///< from a pilot and the passes before; else the first pass's shrink
   bool edges = true;        ///< disks of merging end at the straight edges around them
   bool visibility = true;   ///< what is hidden does not merge
   PlanChoices choices;      ///< what a pilot chooses, place by place, where light paths merge
@@ -36,6 +36,9 @@ struct VcmSettings {
   bool guides_light_paths() const {
     return guiding && (techniques.merging || techniques.connections);
   }
+
+  /// Whether passes learn how wide their disks may be.
+  bool learns_radii() const { return learn_radii && techniques.merging && !(radius > 0); }
 
   // For the user: what the scene has changed of that, and what of it was asked for otherwise.
   std::vector<std::string> decisions, warnings;

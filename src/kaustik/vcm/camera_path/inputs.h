@@ -30,7 +30,10 @@ struct CameraPathInputs {
   int connections = 1;                       ///< per vertex
   const ScatterGuide* scattering = nullptr;  ///< of light paths; null: not guided
   const IndirectCache* cache = nullptr;      ///< null: there is none
-  bool visibility = true;                    ///< what is hidden does not merge
+  /// By which a first vertex chooses its plan; null: it has that of its path.
+  const PixelPlans* plans = nullptr;
+  float shrinkage = 1;     ///< of the areas of their disks
+  bool visibility = true;  ///< what is hidden does not merge
 
   const Techniques& techniques() const { return weights.settings().techniques; }
 };

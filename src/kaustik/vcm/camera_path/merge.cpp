@@ -197,7 +197,8 @@ SurfaceMerging::DiskWeights SurfaceMerging::disk_weights(const MergeDisk& disk,
       bounds, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
       DiskKernel(frame, disk.radius() * narrow_radius, edges, KernelShape::parabolic)};
   // Slopes are for all of what edges leave, not for a part of it that is covered.
-  if (!bounds.are_complete || !(bounds.are_clear() || !in_.visibility)) {
+  if (!vertices_.plan().has_slopes || !bounds.are_complete ||
+      !(bounds.are_clear() || !in_.visibility)) {
     weights.wide.level();
     weights.narrow.level();
   }

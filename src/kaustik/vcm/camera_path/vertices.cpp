@@ -52,6 +52,12 @@ void CameraVertices::arrive(const CameraWalk& walk) {
   here_ = walk.scatterer();
   const SurfacePoint& point = here_.point();
   const Facing facing = here_.facing();
+  if (all_delta_ && in_.plans && walk.gauge() < 0 && !here_.is_in_medium()) {
+    const SurfaceVertex& vertex = *here_.surface();
+    if (any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy)))
+      plan_ = in_.plans->at(walk.raster(), in_.shrinkage, point.position,
+                            vertex.on_front() ? point.ng : -point.ng);
+  }
   vertices_.push_back(here_.is_in_medium() ? next_in_medium(point.position, *walk.medium())
                                            : next(point.position, facing));
   last_ = point;

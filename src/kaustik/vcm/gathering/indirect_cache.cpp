@@ -90,10 +90,6 @@ bool IndirectCache::advance_to_vertex(CameraWalk& walk, int maximum_events) {
   return false;
 }
 
-bool IndirectCache::serves(const CameraWalk& walk) const {
-  return cache_.serves(cache_point_of(walk), allowed_error);
-}
-
 bool IndirectCache::reflected(const CameraWalk& walk, Spectrum& radiance) const {
   const CachePoint point = cache_point_of(walk);
   Spectrum irradiance;

@@ -41,8 +41,6 @@ class IndirectCache {
   }
   /// Takes the walk on to such a vertex, by delta events on its way; false if it finds none.
   static bool advance_to_vertex(CameraWalk& walk, int maximum_events);
-  /// Whether it has the light of such a vertex.
-  bool serves(const CameraWalk& walk) const;
   /// Radiance that the diffuse lobe of such a vertex sends back of diffuse indirect light; false if
   /// it has none.
   bool reflected(const CameraWalk& walk, Spectrum& radiance) const;

@@ -8,7 +8,7 @@
 
 namespace kaustik {
 
-/// What lessons are made of. All but `use` must outlive them.
+/// What lessons are made of. All but `use` and `radii` must outlive them.
 struct LessonInputs {
   const Scene& scene;
   const VcmSettings& settings;
@@ -17,6 +17,7 @@ struct LessonInputs {
   /// What the pilot's light paths have taught. Null: they taught nothing, or the lessons will be
   /// read.
   std::shared_ptr<const LightPathUse> use = nullptr;
+  std::shared_ptr<const RadiusLearning> radii = nullptr;  ///< of `first`; null: not made yet
 };
 
 /// Radii of merging by the light paths of the passes before. Null unless such are to be learned.

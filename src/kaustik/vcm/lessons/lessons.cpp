@@ -18,7 +18,8 @@ VcmLessons::VcmLessons(const Scene& scene, const VcmSettings& settings,
                              .settings = settings,
                              .plain = plain,
                              .first = *first_,
-                             .use = first.use})),
+                             .use = first.use,
+                             .radii = first.radii})),
       epochs_{{0, first_}} {
   for (const auto& lesson : lessons_) end_ = std::max(end_, lesson->end());
 }

@@ -27,6 +27,13 @@ constexpr double least_directions = 12;
 constexpr double least_share = 0.05;
 /// Disks of which edges leave less tell nothing of those that the block's other vertices have.
 constexpr double least_left = 0.125;
+/// Of a disk, at least: coverage is an estimate, and most of nothing is not to be nothing.
+constexpr float least_covered = 0.05f;
+/// Slopes that change the scale of a kernel by less than that are none.
+constexpr double least_slope = 1e-3;
+/// Slopes take off the square of a bias and add a variance. Where the squared difference that they
+/// make is more than so many times its variance, the first is more than the second.
+constexpr double worth_slopes = 2;
 /// What merges at a vertex costs time: more than so many per pass are not worth theirs.
 constexpr double most_vertices = 600;
 /// Disks with so many times more are not looked at any longer, but for the first: disks around tell
@@ -245,7 +252,9 @@ RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const Pixel
     const auto radius = float(level.radius);
     level.moments = disk_moments(frame, radius, edges, KernelShape::flat);
     DiskKernel kernel(frame, radius, edges, KernelShape::flat);
-    if (!first.seen().disk_bounds(number, radius).are_complete) kernel.level();
+    const DiskBounds bounds = first.seen().disk_bounds(number, radius);
+    if (!bounds.are_complete) kernel.level();
+    const bool is_all_covered = bounds.are_complete && bounds.are_clear();
     level.scale = double(kernel.scale);
     level.slope_x = double(dot(kernel.slope, frame.x));
     level.slope_y = double(dot(kernel.slope, frame.y));
@@ -258,7 +267,7 @@ RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const Pixel
           float(std::sqrt(inner_sq + (sqr(level.radius) - inner_sq) * double(u.x)));
       const float angle = 2 * pi * u.y;
       if (!edges.hold((frame.x * std::cos(angle) + frame.y * std::sin(angle)) * distance)) continue;
-      if (coverage.holds(radius, distance, angle)) ++held;
+      if (is_all_covered || coverage.holds(radius, distance, angle)) ++held;
       if (++count == points_per_ring && held > 0 && held < points_per_ring)
         wanted = points_per_cut_ring;
     }
@@ -338,8 +347,47 @@ int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
   return int(levels) - 1;
 }
 
+/// Where light is even over what is left of the disk the variance of the difference is the density
+/// of the squares times ∫ of the square of the factors' difference. Both factors have the integral
+/// 1, and the square of each has its own scale, so that is the difference of the scales.
+float RadiusLearning::worth_of_slopes(const Sums& sums, const Level& level, size_t number) {
+  const double area = level.moments.one * sqr(level.radius);
+  if (!(area > 0) || !(level.scale * area > 1 + least_slope)) return -1;
+  double difference = 0, squares = 0, light = 0;
+  for (const KindSums& kind : sums.of) {
+    light += kind.light[number];
+    squares += kind.squares[number];
+    difference += level.scale * (kind.light[number] + level.slope_x * kind.x[number] +
+                                 level.slope_y * kind.y[number]) -
+                  kind.light[number] / area;
+  }
+  if (sqr(light) < least_directions * squares) return -1;
+  return float(sqr(difference) / (squares / area * (level.scale - 1 / area)));
+}
+
+float RadiusLearning::covered(const Levels& of, float widths) {
+  const int nearest = int(std::lround(2 * std::log2(std::max(1.0f, widths))));
+  const Level& level = of[size_t(std::min(nearest, level_count - 1))];
+  return std::clamp(float(level.moments.one / std::numbers::pi * level.share), least_covered, 1.0f);
+}
+
+bool RadiusLearning::are_slopes_worth(const std::vector<Sums>& sums, const PixelPlans& first,
+                                      size_t probe, int level) const {
+  double sum = 0, count = 0;
+  first.seen().grid().visit_around(probe, [&](size_t i) {
+    const auto number = size_t(level);
+    if (!first.seen().probes()[i].found || number >= sums[i].levels) return;
+    const float worth = worth_of_slopes(sums[i], levels_[i][number], number);
+    if (!(worth >= 0)) return;
+    sum += double(worth);
+    ++count;
+  });
+  return sum > worth_slopes * count;
+}
+
 std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
-                                             uint32_t passes, float shrinkage) const {
+                                             double passes, float shrinkage,
+                                             float most_widths) const {
   std::vector<PixelPlan> result = first.plans();
   std::vector<float> most(sums.size(), float(infinity));  // areas
   std::vector<Disagreement> disagreements(sums.size());
@@ -354,18 +402,26 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
         return float(pi * sqr(level_radius(probe, level))) / shrinkage;
       };
       const auto is_too_wide = [&](size_t i) {
-        return i >= sums[p].levels || sums[p].vertices[i] > most_vertices * passes ||
+        return std::exp2(0.5f * float(i)) > most_widths || i >= sums[p].levels ||
+               sums[p].vertices[i] > most_vertices * passes ||
                levels_[p][i].moments.one < least_left * std::numbers::pi;
       };
       int level = int(levels) - 1;
       while (level > 0 && is_too_wide(size_t(level))) --level;
       most[p] = area_of(level);
-      result[p].merge_area = area_of(std::min(level, widest_level(disagreements, sums, first, p)));
+      level = std::min(level, widest_level(disagreements, sums, first, p));
+      result[p].merge_area = area_of(level);
+      result[p].has_slopes = are_slopes_worth(sums, first, p, level) ? 1 : 0;
     }
   });
   result = smoothed(first, result);
-  for (size_t p = 0; p < result.size(); ++p)
+  for (size_t p = 0; p < result.size(); ++p) {
     result[p].merge_area = std::min(result[p].merge_area, most[p]);
+    const PixelProbe& probe = first.seen().probes()[p];
+    if (!probe.found || !(probe.pixel_width > 0)) continue;
+    const float radius = std::sqrt(result[p].merge_area * shrinkage * inv_pi);
+    result[p].covered = covered(levels_[p], radius / probe.pixel_width);
+  }
   return result;
 }
 

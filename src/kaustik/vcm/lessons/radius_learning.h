@@ -66,10 +66,12 @@ class RadiusLearning {
   /// Leaves out disks in which `passes` passes had so many light vertices that none will be taken:
   /// most vertices of a dense caustic are in them.
   static void narrow(std::vector<Sums>& sums, uint32_t passes);
-  /// The plans for what `passes` passes have summed up: those of the first pass with other disks.
-  /// Shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
+  /// The plans for what `passes` passes, or a part of one, have summed up: those of the first pass
+  /// with other disks, whose kernels have slopes where that takes off more bias than it adds noise.
+  /// Shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand. No disk is
+  /// wider than so many widths of a pixel.
   std::vector<PixelPlan> plans(const PixelPlans& first, const std::vector<Sums>& sums,
-                               uint32_t passes, float shrinkage) const;
+                               double passes, float shrinkage, float most_widths = infinity) const;
 
  private:
   int widest_level(const std::vector<Disagreement>& disagreements, const std::vector<Sums>& sums,
@@ -84,6 +86,13 @@ class RadiusLearning {
     double scale = 0, slope_x = 0, slope_y = 0;  ///< 1/m², 1/m, 1/m
   };
   using Levels = std::array<Level, level_count>;
+  /// What share of a disk of that radius is surface and not hidden.
+  static float covered(const Levels& levels, float widths);
+  /// Squared difference of the lights of a disk with slopes and without over its variance; less
+  /// than 0: there are no slopes, or nothing to tell it by.
+  static float worth_of_slopes(const Sums& sums, const Level& level, size_t number);
+  bool are_slopes_worth(const std::vector<Sums>& sums, const PixelPlans& first, size_t probe,
+                        int level) const;
   static Levels levels_of(const Scene& scene, const PixelProbe& probe, const PixelPlans& first,
                           size_t number, uint64_t& rays);
   static Disagreement::Pairs disagreement_of(const KindSums& sums, size_t count,

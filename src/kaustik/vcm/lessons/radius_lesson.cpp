@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
+#include <memory>
 
 #include "kaustik/photon/photon_map.h"
 #include "kaustik/vcm/lessons/lesson_kinds.h"
@@ -36,6 +36,7 @@ class RadiusLesson final : public Lesson {
       : scene_(in.scene),
         first_(in.first),
         wanted_(in.settings.components),
+        radii_(in.radii),
         sums_(first_.pixels.seen().probes().size()) {}
 
   void begin() override { sums_.assign(sums_.size(), {}); }
@@ -64,14 +65,15 @@ class RadiusLesson final : public Lesson {
   const Scene& scene_;
   const VcmPlans& first_;
   ComponentSet wanted_;
-  std::optional<RadiusLearning> radii_;  ///< made when it is first asked for: that traces rays
+  /// Null: made when it is first asked for, which traces rays.
+  std::shared_ptr<const RadiusLearning> radii_;
   std::vector<RadiusLearning::Sums> sums_;
 };
 
 void RadiusLesson::apply(VcmPlans& plans, uint32_t epoch, const std::stop_token& stop,
                          uint64_t& rays) {
   if (!radii_) {
-    RadiusLearning made(scene_, first_.pixels, rays, stop);
+    auto made = std::make_shared<const RadiusLearning>(scene_, first_.pixels, rays, stop);
     if (stop.stop_requested()) return;
     radii_ = std::move(made);
   }
@@ -101,8 +103,7 @@ std::vector<RadiusLearning::Sums> RadiusLesson::sums_from(ByteReader& reader) co
 }  // namespace
 
 std::unique_ptr<Lesson> make_radius_lesson(const LessonInputs& in) {
-  const bool is_wanted = in.settings.learn_radii && !(in.settings.radius > 0);
-  if (!is_wanted || !in.first.techniques.merging) return nullptr;
+  if (!in.settings.learns_radii() || !in.first.techniques.merging) return nullptr;
   return std::make_unique<RadiusLesson>(in);
 }
 

@@ -64,6 +64,15 @@ PathVertex next_light_vertex(const VcmLightInputs& in, const LightMediumVertex& 
   return next;
 }
 
+/// As the camera's path chooses it: on the side of the surface that the camera sees.
+PixelPlan plan_of(const VcmLightInputs& in, const SeenByCamera& seen) {
+  const CameraConnection& connection = seen.connection;
+  if (!seen.vertex) return in.plans.at(connection.raster, in.shrinkage);
+  const Vec3f& ng = seen.vertex->point().ng;
+  return in.plans.at(connection.raster, in.shrinkage, seen.vertex->position(),
+                     dot(connection.direction, ng) > 0 ? ng : -ng);
+}
+
 PathHalves splat_halves(const VcmLightInputs& in, const LightPathUnderWay& path,
                         const SeenByCamera& seen) {
   PathHalves halves;
@@ -72,7 +81,7 @@ PathHalves splat_halves(const VcmLightInputs& in, const LightPathUnderWay& path,
       seen.connection.importance * in.camera_samples * seen.facing / sqr(seen.connection.distance);
   halves.pdf_camera_before_last = seen.pdf_reverse * path.vertices.back().to_previous;
   halves.pdf_next_event = path.pdf_next_event;
-  const PixelPlan plan = in.plans.at(seen.connection.raster, in.shrinkage);
+  const PixelPlan plan = plan_of(in, seen);
   halves.first_merge_area = plan.counted_area(in.camera_samples);
   halves.first_survival = plan.counted_survival(seen.glossy_share);
   return halves;

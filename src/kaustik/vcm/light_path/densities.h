@@ -31,7 +31,8 @@ PathVertex next_light_vertex(const VcmLightInputs& in, const LightMediumVertex& 
 /// How the last vertex is seen by the camera.
 struct SeenByCamera {
   const CameraConnection& connection;
-  float facing;       ///< Facing::factor() of the vertex to the camera
+  const SurfaceVertex* vertex;  ///< null: it is in a medium
+  float facing;                 ///< Facing::factor() of the vertex to the camera
   float pdf_reverse;  ///< density with which a path from the camera would be scattered there to the
                       ///< vertex before
   float glossy_share;  ///< BsdfValues::glossy_share() of these two directions

@@ -79,7 +79,7 @@ class Tracer {
         const BsdfValues values = seen.values(connection.direction);
         return in_.weights.splat(
             splat_halves(in_, path,
-                         {connection, abs_dot(connection.direction, seen.point().ng),
+                         {connection, &seen, abs_dot(connection.direction, seen.point().ng),
                           values.pdf_reverse, values.glossy_share()}));
       });
     keep(at, path, has_events);
@@ -147,7 +147,7 @@ class Tracer {
     splats_.show(at, [&](const CameraConnection& connection) {
       return in_.weights.splat(
           splat_halves(in_, path,
-                       {connection, at.medium.mean_extinction(at.position),
+                       {connection, nullptr, at.medium.mean_extinction(at.position),
                         at.medium.phase().eval(connection.direction, at.wo), 0}));
     });
     path.vertices.pop_back();

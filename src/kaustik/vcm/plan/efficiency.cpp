@@ -72,7 +72,7 @@ double evenness_at(const ProbeStatistics& probe, double chance) {
 
 double variance(const std::array<double, ProbeStatistics::bin_count>& squares, double merged_alone,
                 double kappa, const MergeScale& scale) {
-  const double nu = scale.area * scale.light_paths;
+  const double nu = scale.area * scale.light_paths / scale.in_common;
   double sum = merged_alone > 0 ? merged_alone / nu : 0.0;
   double merging = nu * std::ldexp(1.0, -ProbeStatistics::bin_of_one);
   for (const double of_bin : squares) {
@@ -86,6 +86,12 @@ double rays_to_merge(const ProbeStatistics& probe, const MergeScale& scale) {
   if (!(scale.light_paths > 0)) return 0;
   return cost_model.merging +
          cost_model.merged_vertex * probe.merged * scale.area * scale.light_paths;
+}
+
+/// What a ray of a path that goes on takes, with what merges where it ends: every other one ends at
+/// a lamp.
+double rays_of_ray_beyond(const MergeScale& scale) {
+  return scale.light_paths > 0 ? 1 + 0.5 * cost_model.merging : 1.0;
 }
 
 Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, const MergeScale& scale,
@@ -106,12 +112,16 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
                                 ? probe.direct_variance / probe.single_direct_variance
                                 : 1.0;
   const double light_sample = stratified * probe.light_sample_variance / costs.camera_samples;
-  result.constant = (direct + probe.cache_variance) * relative;
+  const double cached =
+      probe.cache_variance +
+      (scale.light_paths > 0 ? probe.cache_light_variance / scale.light_paths : 0.0);
+  result.constant = (direct + cached) * relative;
   result.light_sample = std::min(direct, light_sample) * relative;
   result.rays = probe.rays + rays_to_merge(probe, scale);
-  result.rays_beyond = probe.rays_beyond;
-  result.glossy_rays_beyond = probe.glossy_rays_beyond;
-  result.light_sample_rays = probe.light_sample_rays;
+  const double beyond = rays_of_ray_beyond(scale);
+  result.rays_beyond = beyond * probe.rays_beyond;
+  result.glossy_rays_beyond = beyond * probe.glossy_rays_beyond;
+  result.light_sample_rays = cost_model.light_sample * probe.light_sample_rays;
   return result;
 }
 
@@ -234,12 +244,13 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   ungathered.path_mean_square += weight * other.ungathered.path_mean_square;
   ungathered.path_variance += weight * other.ungathered.path_variance;
   ungathered.merged += weight * other.ungathered.merged;
-  gather_variance += weight * other.gather_variance;
+  gathered += weight * other.gathered;
   cache_share += weight * other.cache_share;
   cache_variance += weight * other.cache_variance;
+  cache_light_variance += weight * other.cache_light_variance;
 }
 
-ProbeStatistics ProbeStatistics::with_cache(int gather_rays) const {
+ProbeStatistics ProbeStatistics::with_cache(double variance, double light_variance) const {
   ProbeStatistics rest = *this;
   rest.squares = ungathered.squares;
   rest.merged_alone = ungathered.merged_alone;
@@ -249,7 +260,8 @@ ProbeStatistics ProbeStatistics::with_cache(int gather_rays) const {
   rest.path_variance = ungathered.path_variance;
   rest.merged = ungathered.merged;
   rest.cache_share = 1;
-  rest.cache_variance = gather_variance / gather_rays;
+  rest.cache_variance = variance;
+  rest.cache_light_variance = light_variance;
   return rest;
 }
 
@@ -280,6 +292,7 @@ Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCo
     plans[p].glossy_survival = float(chances[glossy_chance]);
     plans[p].evenness = float(all[p].evenness[chance]);
     plans[p].light_samples = light_counts[lights];
+    plans[p].merging_in_common = float(scales[p].in_common);
   }
   return best.expected;
 }

@@ -38,22 +38,21 @@ struct ProbeStatistics {
   double light_sample_rays = 0;  ///< of a sample of a light at the vertex; one is in `rays`
 
   /// `squares` … `path_variance` and `merged` without diffuse indirect light, where a cache may
-  /// have it …
+  /// have it.
   struct Ungathered {
     std::array<double, bin_count> squares{}, glossy_squares{};
     double merged_alone = 0, glossy_merged_alone = 0, path_mean_square = 0, path_variance = 0,
            merged = 0;
   } ungathered;
-  /// … and the variance of that light by one gather ray.
-  double gather_variance = 0;
+  double gathered = 0;  ///< that light, by camera paths and by what merges, in no known proportion
+  /// Whether any of that light was found.
+  bool has_diffuse_indirect() const { return gathered > 0; }
   double cache_share = 0;     ///< 1 where a cache has that light, …
-  double cache_variance = 0;  ///< … which then has this variance in a pass
-  /// What is left where records of a cache have found that light by so many gather rays each. These
-  /// stratify one another, and several records are interpolated, which halves the variance. But
-  /// pixels side by side then err alike, and errors are to count as the mean of what filters of 1,
-  /// 3 and 9 pixels leave: that is about twice as much of such noise as of noise that pixels do not
-  /// share. So both factors cancel.
-  ProbeStatistics with_cache(int gather_rays) const;
+  double cache_variance = 0;  ///< … which then has this variance in a pass by its gather rays, …
+  double cache_light_variance = 0;  ///< … and this by the light paths that they look up. Both as
+                                    ///< noise_in_common() counts them.
+  /// What is left where a cache has that light with these variances.
+  ProbeStatistics with_cache(double variance, double light_variance) const;
 
   void add(const ProbeStatistics& other, double weight);
 };
@@ -62,6 +61,7 @@ struct ProbeStatistics {
 struct MergeScale {
   double area = 1;         ///< of the disk, relative
   double light_paths = 1;  ///< of a pass, relative
+  double in_common = 1;    ///< PixelPlan::merging_in_common
 };
 
 /// What all probes of a picture have in common.
@@ -69,6 +69,7 @@ struct PassCosts {
   double camera_samples = 1;  ///< per pixel and pass
   double light_rays = 0;      ///< of a pass per camera sample, with MergeScale::light_paths 1
   double cache_rays = 0;      ///< to fill the cache, of a pass per camera sample
+  double pixels = 1;
 };
 
 /// What a pass is expected to cost, in rays per camera sample, and to leave as mean squared error

@@ -75,7 +75,7 @@ class Recorder final : public LightWeights {
     result_.glossy_squares[bin] += glossy_share_ * squares;
     const double gathered = is_for_cache_ ? seen_indirect_ - indirect_before : 0.0;
     const double rest = light - gathered;
-    gathered_ += gathered * even_share;
+    result_.gathered += gathered;
     ungathered_even_ += rest * even_share;
     const double rest_squares = rest * rest * share / paths_;
     result_.ungathered.squares[bin] += (1 - glossy_share_) * rest_squares;
@@ -99,8 +99,6 @@ class Recorder final : public LightWeights {
   double beyond() const { return beyond_; }
   double even() const { return even_; }
   double ungathered_even() const { return ungathered_even_; }
-  /// What the cache is for.
-  double gathered() const { return gathered_; }
 
  private:
   double indirect() const {
@@ -125,17 +123,20 @@ class Recorder final : public LightWeights {
   ProbeStatistics& result_;
   bool goes_on_ = false, is_for_cache_ = false;
   double seen_ = 0, seen_indirect_ = 0, ratio_ = 0, glossy_share_ = 0;
-  double direct_ = 0, beyond_ = 0, even_ = 0, ungathered_even_ = 0, gathered_ = 0;
+  double direct_ = 0, beyond_ = 0, even_ = 0, ungathered_even_ = 0;
 };
 
 /// Light that merges there, as what a camera path that goes on would have to find.
 void add_merged(CameraPath& path, float samples, double light_share, ProbeStatistics& result) {
   const double camera_samples = double(samples);
+  const auto covered = double(path.vertices().plan().covered);
   const bool is_for_cache = IndirectCache::is_for(path.walk(), path.inputs().maximum_events);
   for (const auto& [beyond, spectrum, indirect, of_glossy] : path.merged_vertices()) {
     const double glossy = double(of_glossy), diffuse = 1 - glossy;
-    const double light = double(spectrum.sum());
-    const double rest = is_for_cache ? light - double(indirect.sum()) : light;
+    // As merging divides it by what is covered of the disk.
+    const double light = double(spectrum.sum()) / covered;
+    const double rest = is_for_cache ? light - double(indirect.sum()) / covered : light;
+    if (is_for_cache) result.gathered += double(indirect.sum());
     result.merged += 1 / light_share;
     if (!is_for_cache || rest != 0) result.ungathered.merged += 1 / light_share;
     if (light == 0) continue;
@@ -254,7 +255,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   double direct = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0,
          glossy_rays_beyond = 0;
   double light_differences = 0, light_sample_rays = 0;
-  double ungathered = 0, ungathered_squares = 0, gathered = 0, gathered_squares = 0;
+  double ungathered = 0, ungathered_squares = 0;
   // Else the sink would drop what is mirrored under its own name.
   const bool wants_all_reflected = limits.components.has(Component::direct) &&
                                    limits.components.has(Component::caustic) &&
@@ -316,8 +317,6 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
     even_squares += recorder.even() * recorder.even();
     ungathered += recorder.ungathered_even();
     ungathered_squares += sqr(recorder.ungathered_even());
-    gathered += recorder.gathered();
-    gathered_squares += sqr(recorder.gathered());
   }
   result.rays_beyond = rays_beyond;
   result.glossy_rays_beyond = glossy_rays_beyond;
@@ -325,7 +324,6 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   result.path_variance = variance_of(even, even_squares, count);
   result.ungathered.path_mean_square = ungathered_squares / count;
   result.ungathered.path_variance = variance_of(ungathered, ungathered_squares, count);
-  result.gather_variance = variance_of(gathered, gathered_squares, count);
   result.direct_variance = direct_variance.of_runs();
   result.single_direct_variance = direct_variance.of_single();
   result.light_sample_variance = light_differences / (2 * count);

@@ -22,6 +22,8 @@ constexpr uint32_t fewest_pilot_paths = 1 << 13, most_pilot_paths = 1 << 18;
 /// Pilot passes, each guided by those before, that there are at most; another one is traced where
 /// what was learned takes off so much of the second moment.
 constexpr uint32_t most_pilots = 4;
+/// Of the pilot pass that tells the first radii; more than there are others.
+constexpr uint32_t radius_round = 16;
 constexpr double worth_a_pilot = 0.7;
 /// Or where no more paths than that were of use.
 constexpr size_t few_paths = 1024;
@@ -43,10 +45,11 @@ constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
 constexpr double worth_fewer = 1.25;
 /// The bias of a cache is not counted either.
 constexpr double worth_caching = 1.25;
-/// Gather rays of a record in a trial.
-constexpr int trial_rays = 32;
 /// Probes by which plans are compared, where there are so many.
 constexpr size_t compared_probes = 1 << 13;
+/// Radius of the first disks that the pilot's light tells, at most, in shorter sides of the
+/// picture.
+constexpr float most_first_radius = 1.0f / 24;
 constexpr float near_per_distance = 0.01746f;  // tan 1°
 
 /// Whether there is a vertex that light of a point, or of something else that is never met, has
@@ -213,12 +216,22 @@ std::string described(const LightGuides& guides) {
       1 / guides.noise_of_guided);
 }
 
+/// noise_in_common() of what merges in a disk of that area around a probe, m².
+double merging_in_common(const PixelPlans& pixels, size_t probe, float area) {
+  const std::vector<PixelProbe>& probes = pixels.seen().probes();
+  const float width = probe < probes.size() ? probes[probe].pixel_width : 0.0f;
+  if (!(width > 0)) return 1;
+  return double(noise_in_common(spread_of_disk(std::sqrt(area * inv_pi) / width)));
+}
+
 }  // namespace
 
 ProbeStatistics VcmPilot::probe_with(const CachePlan& cache, size_t probe) const {
-  if (cache.rounds == 0 || !cache_trials[size_t(cache.rounds) - 1].served[probe])
-    return probes[probe];
-  return probes[probe].with_cache(cache.gather_rays);
+  if (cache.rounds == 0) return probes[probe];
+  const CacheTrial& trial = cache_trials[size_t(cache.rounds) - 1];
+  if (!trial.served[probe]) return probes[probe];
+  return probes[probe].with_cache(double(trial.ray_variance[probe]) / cache.gather_rays,
+                                  double(trial.light_variance[probe]) * light_share);
 }
 
 std::vector<ProbeStatistics> VcmPilot::probes_with(const CachePlan& cache) const {
@@ -243,7 +256,8 @@ Efficiency VcmPilot::expected(const CachePlan& cache, const std::vector<MergeSca
 PassCosts VcmPilot::costs_with(const CachePlan& cache) const {
   PassCosts result = costs;
   if (cache.rounds > 0)
-    result.cache_rays = cache_trials[size_t(cache.rounds) - 1].rays_per_ray * cache.gather_rays;
+    result.cache_rays = cache_trials[size_t(cache.rounds) - 1].rays_per_ray * cache.gather_rays /
+                        (costs.camera_samples * costs.pixels);
   return result;
 }
 
@@ -265,8 +279,9 @@ std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& dis
   for (size_t i = 0; i < disks.size(); ++i) {
     scales[i].light_paths =
         techniques.merging ? double(light_paths) / double(pilot->light_paths) : 0.0;
-    if (pilot->areas[i] > 0)
-      scales[i].area = double(disks[i].merge_area * shrinkage) / double(pilot->areas[i]);
+    const double area = double(disks[i].merge_area * shrinkage);
+    if (pilot->areas[i] > 0) scales[i].area = area / double(pilot->areas[i]);
+    scales[i].in_common = merging_in_common(pixels, i, float(area));
   }
   return scales;
 }
@@ -340,9 +355,13 @@ FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& s
   if (!vertices.connectible.empty())
     plans.connectible_per_path =
         float(vertices.connectible.size()) / float(vertices.connectible_paths());
-  uint64_t rays = found.rays;
-  if (settings_.techniques.merging && !stop.stop_requested())
-    plans = with_merging(std::move(plans), found.light, of_pass, stop, rays);
+  FirstPlans result{.plans = nullptr, .use = found.use, .rays = found.rays};
+  if (settings_.techniques.merging && !stop.stop_requested()) {
+    FirstPlans merging = with_merging(std::move(plans), found.light, of_pass, stop);
+    plans = *merging.plans;
+    result.radii = merging.radii;
+    result.rays += merging.rays;
+  }
   if (std::string text = described_light_samples(plans.pixels); !text.empty())
     plans.decisions.push_back(std::move(text));
   if (plans.cache.rounds > 0)
@@ -353,8 +372,8 @@ FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& s
     plans.decisions.push_back(described(plans.guides));
   plans.decisions.insert(plans.decisions.end(), settings_.decisions.begin(),
                          settings_.decisions.end());
-  return {
-      .plans = std::make_shared<const VcmPlans>(std::move(plans)), .use = found.use, .rays = rays};
+  result.plans = std::make_shared<const VcmPlans>(std::move(plans));
+  return result;
 }
 
 VcmPlanner::FoundLight VcmPlanner::search_light(uint32_t count, const std::stop_token& stop) const {
@@ -463,21 +482,50 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const LightGuides& guides, uint32
   return light;
 }
 
-VcmPlans VcmPlanner::with_merging(VcmPlans plans, const PilotLight& light, uint32_t of_pass,
-                                  const std::stop_token& stop, uint64_t& rays) const {
+FirstPlans VcmPlanner::with_merging(VcmPlans plans, const PilotLight& light, uint32_t of_pass,
+                                    const std::stop_token& stop) const {
+  FirstPlans result;
+  const auto stopped = [&] {
+    result.plans = std::make_shared<const VcmPlans>(std::move(plans));
+    return result;
+  };
   plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius,
                             stop);
   plans.media =
       medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.seen().mean_distance());
-  plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop, rays));
-  if (stop.stop_requested()) return plans;
+  if (settings_.edges)
+    plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius, result.rays,
+                            stop);
+  if (stop.stop_requested()) return stopped();
+  if (settings_.learns_radii()) {
+    // By other light than that by which the pilot judges them: where that happens to agree, or to
+    // be nowhere near, it would find less noise than there is.
+    const PilotLight other =
+        trace_pilot(light.guides, radius_round, light.vertices.path_count, stop);
+    result.rays += other.rays;
+    const auto radii =
+        std::make_shared<const RadiusLearning>(scene_, plans.pixels, result.rays, stop);
+    const std::vector<RadiusLearning::Sums> sums = RadiusLearning::sums_of(
+        plans.pixels, other.vertices, settings_.components,
+        std::vector<RadiusLearning::Sums>(plans.pixels.plans().size()), stop);
+    if (stop.stop_requested()) return stopped();
+    const double passes = double(light.vertices.path_count) / double(of_pass);
+    const Vec2i& picture = scene_.film().size;
+    const float most =
+        std::max(most_disk_widths, most_first_radius * float(std::min(picture.x, picture.y)));
+    plans.pixels = plans.pixels.with(radii->plans(plans.pixels, sums, passes, 1, most));
+    result.radii = radii;
+  }
+  plans.pilot =
+      std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop, result.rays));
+  if (stop.stop_requested()) return stopped();
   if (settings_.chooses_light_paths)
     plans = with_light_paths_that_pay(plans, stop);
   else
     settle_with_cache(plans);
-  if (plans.techniques.merging && settings_.edges)
-    plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius, rays, stop);
-  return plans;
+  if (!plans.techniques.merging) result.radii = nullptr;
+  result.plans = std::make_shared<const VcmPlans>(std::move(plans));
+  return result;
 }
 
 VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
@@ -511,6 +559,7 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
                                   rays, stop);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
   pilot.light_paths = plans.light_paths;
+  pilot.light_share = light_share;
   pilot.needs_merging = scene_.has_scattering() || (is_merging_wanted(settings_.components) &&
                                                     has_hidden_light(light.vertices));
   const Vec2i size = scene_.film().crop_size;
@@ -519,55 +568,49 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
   const double shared_by =
       double(light_paths) /
       double(light_path_count(size, plans.samples_per_pixel, plans.light_paths));
-  pilot.costs = {samples, double(light.rays) / light_share /
-                              (samples * double(size.x) * double(size.y) * shared_by)};
-  if (settings_.choices.cache != CacheUse::never && !stop.stop_requested()) {
+  const double pixels = double(size.x) * double(size.y);
+  pilot.costs = {.camera_samples = samples,
+                 .light_rays = double(light.rays) / light_share / (samples * pixels * shared_by),
+                 .pixels = pixels};
+  if (is_cache_worth_a_trial(pilot) && !stop.stop_requested()) {
     const SidedTree<LightVertexData> focused = focused_vertices(light.vertices, stop);
-    try_cache({.scene = scene_,
-               .light = light.vertices,
-               .focused = focused,
-               .merge_radius_sq = settings.merge_area * inv_pi,
-               .maximum_events = settings_.maximum_events},
-              plans.pixels, pilot, stop, rays);
+    TrialCaches caches({.scene = scene_,
+                        .light = light.vertices,
+                        .focused = focused,
+                        .merge_radius_sq = settings.merge_area * inv_pi,
+                        .maximum_events = settings_.maximum_events},
+                       plans.pixels, stop);
+    try_caches(caches, plans.pixels, pilot, stop);
+    rays += caches.rays();
   }
   return pilot;
 }
 
-void VcmPlanner::try_cache(const GatherInputs& inputs, const PixelPlans& pixels, VcmPilot& pilot,
-                           const std::stop_token& stop, uint64_t& rays) const {
+bool VcmPlanner::is_cache_worth_a_trial(const VcmPilot& pilot) const {
+  if (settings_.choices.cache != CacheUse::choose)
+    return settings_.choices.cache == CacheUse::always;
+  // To fill a cache for a single sample hardly ever pays, and the first picture waits for the
+  // trial.
+  return pilot.costs.camera_samples > 1 &&
+         std::any_of(pilot.probes.begin(), pilot.probes.end(),
+                     [](const ProbeStatistics& probe) { return probe.has_diffuse_indirect(); });
+}
+
+void VcmPlanner::try_caches(TrialCaches& caches, const PixelPlans& pixels, VcmPilot& pilot,
+                            const std::stop_token& stop) const {
   const bool is_asked_for = settings_.choices.cache == CacheUse::always;
-  const auto& all = pilot.probes;
-  if (!is_asked_for && std::none_of(all.begin(), all.end(), [](const ProbeStatistics& probe) {
-        return probe.gather_variance > 0;
-      }))
-    return;
-  const Vec2i size = scene_.film().crop_size;
-  const double samples = pilot.costs.camera_samples * double(size.x) * double(size.y);
-  const std::vector<PixelProbe>& probes = pixels.seen().probes();
-  const std::vector<MergeScale> scales(probes.size());
+  std::vector<MergeScale> scales(pilot.probes.size());
+  for (size_t i = 0; i < scales.size(); ++i)
+    scales[i].in_common = merging_in_common(pixels, i, pilot.areas[i]);
   const auto time = [&](int rounds) {
     return pilot.expected({.rounds = rounds}, scales, settings_.choices).time();
   };
-  IndirectCache cache(inputs, Pass(), trial_rays, stop);
   for (int rounds = 1; rounds <= IndirectCache::most_rounds; ++rounds) {
-    cache.fill_round(stop);
+    pilot.cache_trials[size_t(rounds) - 1] = caches.next_round(stop);
     if (stop.stop_requested()) return;
-    VcmPilot::CacheTrial& trial = pilot.cache_trials[size_t(rounds) - 1];
-    trial.rays_per_ray = double(cache.rays()) / trial_rays / samples;
-    trial.served.assign(probes.size(), 0);
-    parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {
-      for (size_t i = begin; i < end; ++i) {
-        Sampler numbers = Sampler::at(0, 0, Stream::pilot_path, i, 0);
-        SampleSink nowhere{ComponentSet()};
-        CameraWalk walk(scene_, probes[i].raster, numbers, nowhere);
-        trial.served[i] =
-            IndirectCache::advance_to_vertex(walk, inputs.maximum_events) && cache.serves(walk);
-      }
-    });
     // Finer rounds cost more, and serve less.
     if (!is_asked_for && !(time(rounds) < time(rounds - 1))) break;
   }
-  rays += cache.rays();
 }
 
 }  // namespace kaustik

@@ -10,22 +10,20 @@
 #include "kaustik/vcm/lessons/light_path_use.h"
 #include "kaustik/vcm/light_vertices.h"
 #include "kaustik/vcm/merging/medium_disks.h"
+#include "kaustik/vcm/plan/cache_trial.h"
 #include "kaustik/vcm/plan/efficiency.h"
 #include "kaustik/vcm/plan/pixel_plans.h"
 #include "kaustik/vcm/settings.h"
 
 namespace kaustik {
 
+class RadiusLearning;
+
 /// What the paths of a pilot pass tell of each probe.
 struct VcmPilot {
   std::vector<ProbeStatistics> probes;
   std::vector<float> areas;  ///< of the disks that they were taken with, m²
   PassCosts costs;
-  /// What a trial of the cache tells.
-  struct CacheTrial {
-    std::vector<uint8_t> served;  ///< probe by probe: whether it has the light there
-    double rays_per_ray = 0;      ///< PassCosts::cache_rays by gather rays of a record
-  };
   /// Of one round, of two …; without probes: not tried.
   std::array<CacheTrial, IndirectCache::most_rounds> cache_trials;
   bool has_tried(int cache_rounds) const {
@@ -39,7 +37,8 @@ struct VcmPilot {
   /// compare. `scales` by probe.
   Efficiency expected(const CachePlan& cache, const std::vector<MergeScale>& scales,
                       const PlanChoices& choices) const;
-  float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
+  float light_paths = 0;   ///< per camera sample, of the passes that it speaks of
+  double light_share = 1;  ///< the pilot's light paths over those of such a pass
   /// Light arrives somewhere in the scene that no path from the camera can find, or media scatter
   /// it, of which the pilot knows nothing.
   bool needs_merging = false;
@@ -90,6 +89,8 @@ struct FirstPlans {
   std::shared_ptr<const VcmPlans> plans;
   /// What the light paths of the pilot passes taught; null: they are not guided.
   std::shared_ptr<const LightPathUse> use = nullptr;
+  /// What the first radii were learned with; null: nothing.
+  std::shared_ptr<const RadiusLearning> radii = nullptr;
   uint64_t rays = 0;  ///< that it took
 };
 
@@ -135,16 +136,18 @@ class VcmPlanner {
                               const std::stop_token& stop) const;
   PilotLight trace_pilot(const LightGuides& guides, uint32_t round, uint32_t count,
                          const std::stop_token& stop) const;
-  /// The same plans with disks of merging, a pilot, and what that tells. Counts the rays.
-  VcmPlans with_merging(VcmPlans plans, const PilotLight& light, uint32_t of_pass,
-                        const std::stop_token& stop, uint64_t& rays) const;
+  /// The same plans with disks of merging, a pilot, and what that tells; `use` is up to the caller.
+  FirstPlans with_merging(VcmPlans plans, const PilotLight& light, uint32_t of_pass,
+                          const std::stop_token& stop) const;
   /// By the disks of `plans`. Counts the rays.
   VcmPilot make_pilot(const VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
                       const std::stop_token& stop, uint64_t& rays) const;
 
-  /// Tries the cache: what it serves, and what it costs. Counts the rays.
-  void try_cache(const GatherInputs& inputs, const PixelPlans& pixels, VcmPilot& pilot,
-                 const std::stop_token& stop, uint64_t& rays) const;
+  bool is_cache_worth_a_trial(const VcmPilot& pilot) const;
+  /// Tries the cache, as many rounds as may pay: what it serves, with what noise, and what it
+  /// costs.
+  void try_caches(TrialCaches& caches, const PixelPlans& pixels, VcmPilot& pilot,
+                  const std::stop_token& stop) const;
 
   const Scene& scene_;
   const VcmSettings& settings_;

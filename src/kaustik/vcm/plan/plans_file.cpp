@@ -50,11 +50,14 @@ void write_pilot(ByteWriter& writer, const VcmPilot* pilot) {
   writer.put_array(pilot->areas);
   writer.put(pilot->costs);
   writer.put(pilot->light_paths);
+  writer.put(pilot->light_share);
   writer.put(uint8_t(pilot->needs_merging ? 1 : 0));
-  for (const VcmPilot::CacheTrial& trial : pilot->cache_trials) {
+  for (const CacheTrial& trial : pilot->cache_trials) {
     writer.put(uint8_t(trial.served.empty() ? 0 : 1));
     if (trial.served.empty()) continue;
     writer.put_array(trial.served);
+    writer.put_array(trial.ray_variance);
+    writer.put_array(trial.light_variance);
     writer.put(trial.rays_per_ray);
   }
 }
@@ -66,11 +69,19 @@ std::shared_ptr<const VcmPilot> read_pilot(ByteReader& reader, size_t probes) {
   pilot.areas = reader.get_array<float>(probes);
   pilot.costs = reader.get<PassCosts>();
   pilot.light_paths = reader.get<float>();
+  pilot.light_share = reader.get<double>();
+  if (!(pilot.light_share > 0) || !(pilot.costs.pixels > 0))
+    reader.damaged("its pilot has no light paths, or no pixels");
   pilot.needs_merging = reader.get_flag();
-  for (VcmPilot::CacheTrial& trial : pilot.cache_trials) {
+  for (CacheTrial& trial : pilot.cache_trials) {
     if (!reader.get_flag()) continue;
     trial.served = reader.get_array<uint8_t>(probes);
+    trial.ray_variance = reader.get_array<float>(probes);
+    trial.light_variance = reader.get_array<float>(probes);
     trial.rays_per_ray = reader.get<double>();
+    for (const auto* variances : {&trial.ray_variance, &trial.light_variance})
+      for (const float variance : *variances)
+        if (!(variance >= 0)) reader.damaged("a cache in it has a variance below 0");
     if (!(trial.rays_per_ray >= 0)) reader.damaged("filling a cache in it takes less than no rays");
   }
   return std::make_shared<const VcmPilot>(std::move(pilot));
@@ -116,6 +127,10 @@ VcmPlans PlansReader::next() {
     seen_ = std::move(seen);
   }
   plans.pixels = PixelPlans::read(reader_, seen_);
+  for (const PixelPlan& plan : plans.pixels.plans())
+    if (!(plan.covered > 0 && plan.covered <= 1) || !(plan.merging_in_common >= 1) ||
+        !std::isfinite(plan.merging_in_common))
+      reader_.damaged("what a block in it shares is out of bounds");
   for (const PixelPlan& plan : plans.pixels.plans())
     if (plan.light_samples < 1 || plan.light_samples > PixelPlan::most_light_samples)
       reader_.damaged("a block in it samples no light, or too many");
