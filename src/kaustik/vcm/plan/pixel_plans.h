@@ -41,7 +41,8 @@ struct PixelPlan {
   /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
   /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
   float evenness = 1;
-  float covered = 1;  ///< what share of the disk is surface and not hidden, about
+  /// What share of the disk is surface and not hidden, about. 1 where radii are not learned.
+  float covered = 1;
   /// The error of merging counts so many times, for pixels side by side share it:
   /// noise_in_common().
   float merging_in_common = 1;
