@@ -329,6 +329,12 @@ TEST_F(PlansOfSurfaces, AreCarefulOfWhatNoProbeShows) {
   EXPECT_GT(plan.survival, 0.3f);
   EXPECT_EQ(plan.evenness, 1);
   EXPECT_LT(plan.merging_in_common, 2);
+  // Nor is the back of a surface what its front shows: light paths may come from there.
+  const SurfaceVertex wall = seen_at(raster);
+  const Vec3f& ng = wall.point().ng;
+  const Vec3f front = wall.on_front() ? ng : -ng;
+  EXPECT_EQ(plans_.at(raster, 1, wall.position(), front).merge_area, 2);
+  EXPECT_FLOAT_EQ(plans_.at(raster, 1, wall.position(), -front).merge_radius(), 1.5f * width);
   // A radius that was asked for is a radius everywhere.
   PixelPlans given = plans_;
   given.choose_disks({}, 1, 30, 0.25f);

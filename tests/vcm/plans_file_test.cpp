@@ -40,9 +40,14 @@ class PlansFile : public testing::Test {
   }
   /// Those that sample so many lights in one block.
   VcmPlans with_light_samples(int count) const {
+    return with_block([&](PixelPlan& plan) { plan.light_samples = count; });
+  }
+  /// Those with one block changed.
+  template <typename Change>
+  VcmPlans with_block(const Change& change) const {
     VcmPlans plans = made();
     std::vector<PixelPlan> pixels = plans.pixels.plans();
-    pixels.back().light_samples = count;
+    change(pixels.back());
     plans.pixels = plans.pixels.with(std::move(pixels));
     return written_and_read(plans);
   }
@@ -82,6 +87,47 @@ TEST_F(PlansFile, CountsOfLightsHaveBounds) {
   EXPECT_EQ(with_light_samples(16).pixels.plans().back().light_samples, 16);
   EXPECT_THROW(with_light_samples(0), Error);
   EXPECT_THROW(with_light_samples(17), Error);
+}
+
+/// Weights are divided by what pixels share, and the pilot's light by what is covered.
+TEST_F(PlansFile, WhatWeightsGoByHasBounds) {
+  const auto with = [&](float covered, float in_common) {
+    return with_block([&](PixelPlan& plan) {
+      plan.covered = covered;
+      plan.merging_in_common = in_common;
+    });
+  };
+  EXPECT_EQ(with(0.5f, 2).pixels.plans().back().counted_area(1),
+            made().pixels.plans().back().merge_area * 0.5f / 2);
+  for (const float covered : {0.0f, 1.5f, NAN}) EXPECT_THROW(with(covered, 1), Error) << covered;
+  for (const float in_common : {0.5f, infinity, NAN})
+    EXPECT_THROW(with(1, in_common), Error) << in_common;
+}
+
+/// A pilot that tells of nothing, or of a cache that errs by less than nothing, would choose at
+/// random.
+TEST_F(PlansFile, PilotsHaveBounds) {
+  const auto with = [&](const auto& change) {
+    VcmPlans plans = made();
+    VcmPilot pilot = *plans.pilot;
+    change(pilot);
+    plans.pilot = std::make_shared<const VcmPilot>(std::move(pilot));
+    return written_and_read(plans);
+  };
+  EXPECT_NO_THROW(with([](VcmPilot&) {}));
+  EXPECT_THROW(with([](VcmPilot& pilot) { pilot.light_share = 0; }), Error);
+  EXPECT_THROW(with([](VcmPilot& pilot) { pilot.costs.pixels = NAN; }), Error);
+  const auto with_variance = [&](float variance) {
+    return with([&](VcmPilot& pilot) {
+      const size_t probes = pilot.probes.size();
+      pilot.cache_trials[0] = {std::vector<uint8_t>(probes, 1),
+                               std::vector<float>(probes, variance), std::vector<float>(probes, 1),
+                               1};
+    });
+  };
+  EXPECT_NO_THROW(with_variance(0));
+  EXPECT_THROW(with_variance(-1), Error);
+  EXPECT_THROW(with_variance(NAN), Error);
 }
 
 }  // namespace

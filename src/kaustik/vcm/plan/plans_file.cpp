@@ -1,5 +1,8 @@
 #include "kaustik/vcm/plan/plans_file.h"
 
+#include <cmath>
+#include <cstring>
+
 #include "kaustik/vcm/lessons/radius_learning.h"
 
 namespace kaustik {
