@@ -134,7 +134,7 @@ double light_sample_seconds(const std::string& name, const Scene& scene) {
                           fmt::format("choose_light_samples={}", several)}));
   };
   const Cost several = with(true), one = with(false);
-  if (!(several.rays > 1.1 * one.rays)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(several.rays > 1.02 * one.rays)) return std::numeric_limits<double>::quiet_NaN();
   return (several.seconds - one.seconds) / (several.rays - one.rays);
 }
 

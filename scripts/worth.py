@@ -72,7 +72,7 @@ CONSTANTS = [
     ("vcm/plan/plans.cpp", "worth_a_pilot", (0.8, 1.25), GUIDED),
     ("vcm/plan/plans.cpp", "few_paths", HALF_DOUBLE, GUIDED),
     ("vcm/plan/plans.cpp", "worth_guiding", (0.8, 1.25), GUIDED),
-    ("vcm/plan/plans.cpp", "worth_fewer", (0.8, 1.25), GUIDED),
+    ("vcm/plan/plan_selection.cpp", "worth_fewer", (0.8, 1.25), GUIDED),
     ("vcm/plan/plans.cpp", "near_per_distance", HALF_DOUBLE, AUTO),
     ("vcm/plan/path_pilot.cpp", "most_merged", HALF_DOUBLE, AUTO),
     ("vcm/lessons/radius_learning.cpp", "tolerated", (0.7, 1.4), AUTO),
