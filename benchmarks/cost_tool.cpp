@@ -6,17 +6,14 @@
 // (T - T')/(R - R'), where ' is direct light alone. The same samples take longer where light
 // merges: by a line over the light vertices that merge at a vertex, of which there are (R - 1)/2, a
 // ray to each and one from it to a lamp. How many merge is what plans expect at the first vertex;
-// disks are made for 10, 30, 100 and 300 of them. Samples of lights take what samples with more of
-// them take longer, over their rays. Rays that gather take what a pass takes longer with a cache
-// than without one before its first sample, over their number.
+// disks are made for 10, 30, 100 and 300 of them. Rays that gather take what a pass takes longer
+// with a cache than without one before its first sample, over their number.
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <ctime>
-#include <limits>
-#include <tuple>
 
 #include "benchmarks/comparisons/bench_scene.h"
 #include "benchmarks/markdown_table.h"
@@ -122,21 +119,8 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y) {
   return {mean_y - xy / xx * mean_x, xy / xx};
 }
 
-/// In the order of CostModel, then seconds of a ray.
-using Parts = std::array<double, 6>;
-
-/// Seconds of a ray of another sample of a light at the first vertex; not a number where there are
-/// none.
-double light_sample_seconds(const std::string& name, const Scene& scene) {
-  const auto with = [&](bool several) {
-    return cost_of(*made(description_of(name), scene, "ppm",
-                         {"adaptive=false", "choose_survival=false", "indirect_cache=never",
-                          fmt::format("choose_light_samples={}", several)}));
-  };
-  const Cost several = with(true), one = with(false);
-  if (!(several.rays > 1.02 * one.rays)) return std::numeric_limits<double>::quiet_NaN();
-  return (several.seconds - one.seconds) / (several.rays - one.rays);
-}
+/// merging, merged_vertex, light_ray and gather_ray of CostModel, then seconds of a ray.
+using Parts = std::array<double, 5>;
 
 /// Seconds of a ray that gathers, with all that is done at its end.
 double gather_seconds(const std::string& name, const Scene& scene) {
@@ -168,19 +152,13 @@ Parts parts_of(const std::string& name) {
     light += merging.light_seconds / merging.light_rays / ray / double(neighbors.size());
   }
   const Line line = line_through(counts, rays);
-  return {line.at_zero,
-          line.slope,
-          light_sample_seconds(name, *scene) / ray,
-          light,
-          gather_seconds(name, *scene) / ray,
-          ray};
+  return {line.at_zero, line.slope, light, gather_seconds(name, *scene) / ray, ray};
 }
 
 std::vector<std::string> row_of(const std::string& name, const Parts& parts) {
   std::vector<std::string> row = {name};
-  for (size_t i = 0; i + 1 < parts.size(); ++i)
-    row.push_back(std::isfinite(parts[i]) ? fmt::format("{:.3g}", parts[i]) : "–");
-  row.push_back(fmt::format("{:.0f}", 1e9 * parts.back()));
+  for (size_t i = 0; i < 4; ++i) row.push_back(fmt::format("{:.3g}", parts[i]));
+  row.push_back(fmt::format("{:.0f}", 1e9 * parts[4]));
   return row;
 }
 
@@ -193,16 +171,15 @@ int main(int argc, char** argv) {
               "atrium",      "pool_below",         "maze",           "gallery_1",
               "door_ajar",   "peer_cornell_glass", "peer_pool_above"};
   bench::MarkdownTable table(
-      {"scene", "merging", "merged vertex", "light sample", "light ray", "gather ray", "ray, ns"});
-  std::array<std::vector<double>, std::tuple_size_v<Parts>> all;
+      {"scene", "merging", "merged vertex", "light ray", "gather ray", "ray, ns"});
+  std::array<std::vector<double>, 5> all;
   try {
     with_threads(1, [&] {
       for (const std::string& name : scenes) {
         const Parts parts = parts_of(name);
         table.add(row_of(name, parts));
         fmt::print(stderr, "# {}: {:.3g}\n", name, fmt::join(parts, ", "));
-        for (size_t i = 0; i < parts.size(); ++i)
-          if (std::isfinite(parts[i])) all[i].push_back(parts[i]);
+        for (size_t i = 0; i < parts.size(); ++i) all[i].push_back(parts[i]);
       }
     });
   } catch (const Error& error) {
@@ -210,13 +187,12 @@ int main(int argc, char** argv) {
     return 2;
   }
   Parts medians;
-  for (size_t i = 0; i < medians.size(); ++i)
-    medians[i] = all[i].empty() ? std::numeric_limits<double>::quiet_NaN() : bench::median(all[i]);
+  for (size_t i = 0; i < medians.size(); ++i) medians[i] = bench::median(all[i]);
   table.add(row_of("median", medians));
-  table.add(
-      {"CostModel", fmt::format("{:g}", cost_model.merging),
-       fmt::format("{:g}", cost_model.merged_vertex), fmt::format("{:g}", cost_model.light_sample),
-       fmt::format("{:g}", cost_model.light_ray), fmt::format("{:g}", cost_model.gather_ray), ""});
+  table.add({"CostModel", fmt::format("{:g}", cost_model.merging),
+             fmt::format("{:g}", cost_model.merged_vertex),
+             fmt::format("{:g}", cost_model.light_ray), fmt::format("{:g}", cost_model.gather_ray),
+             ""});
   fmt::print("{}", table.text());
   return 0;
 }
