@@ -24,7 +24,7 @@ FilmSettings film_of(const Vec2i& size, const Window& window) {
   return film;
 }
 
-constexpr int block_size = SeenSurfaces::block_size;
+constexpr int block_size = SeenSurfaces::least_block_size;
 const Vec2i whole_size(43, 38);
 const std::vector<Window> windows{{{10, 20}, {16, 12}}, {{0, 0}, {1, 1}},    {{42, 37}, {1, 1}},
                                   {{21, 18}, {1, 1}},   {{3, 1}, {40, 3}},   {{40, 0}, {3, 38}},

@@ -90,7 +90,7 @@ TEST(PathPilot, KnowsRaysAndNoiseOfABall) {
   EXPECT_EQ(pilot.rays, pilot.probes.size() * 8 * 6);
 }
 
-/// Four times the pixels are hardly more work, and what is told stays the same.
+/// Many times the pixels are hardly more work, and what is told stays the same.
 TEST(PathPilot, TakesFewerPathsOfEachProbeOfALargePicture) {
   const auto paths_of = [](int side) {
     const BallPilot pilot = pilot_of(HollowBall(100, side), 0, 0.1);
@@ -99,15 +99,14 @@ TEST(PathPilot, TakesFewerPathsOfEachProbeOfALargePicture) {
       EXPECT_NEAR(probe.rays_beyond, 3, 1e-9);
       EXPECT_NEAR(probe.direct_variance, 0, 1e-9);
     }
-    EXPECT_EQ(pilot.probes.size() * 16, size_t(side) * size_t(side));
     return double(pilot.rays) / 6;
   };
   EXPECT_EQ(paths_of(256), 8 * 64 * 64);
-  EXPECT_EQ(paths_of(512), 8 * 128 * 128);
-  EXPECT_EQ(paths_of(640), 5 * 160 * 160);
-  EXPECT_LT(paths_of(832), 1 << 17);
-  // From there on some probes tell of those around: 259 blocks in a row, of which each second one.
-  EXPECT_EQ(paths_of(1036), 7 * 130 * 130);
+  // Blocks of 6 × 6 pixels, then of 8 × 8.
+  EXPECT_EQ(paths_of(612), 8 * 102 * 102);
+  EXPECT_EQ(paths_of(1040), 7 * 130 * 130);
+  // From some size on probes tell of those around: 250 blocks in a row, of which each second one.
+  EXPECT_EQ(paths_of(2000), 8 * 125 * 125);
 }
 
 /// A lamp of which a screen hides half: a sample is about twice the light, or none, with a variance

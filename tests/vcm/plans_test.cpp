@@ -112,6 +112,27 @@ TEST(VcmPlanner, KeepsLightPathsForWhatNothingElseFinds) {
   EXPECT_FALSE(planned(TestScene(covered), of_direct).pilot->needs_merging);
 }
 
+/// Where even a cache without noise and cost would not pay, none is tried; passes of a single
+/// sample may have one.
+TEST(VcmPlanner, TriesCachesWhereTheyMayPay) {
+  const auto tried = [](const std::string& inside, uint32_t samples) {
+    const VcmPlans plans = planned(TestScene(inside), settings_of(auto_info()), samples);
+    EXPECT_TRUE(
+        std::any_of(plans.pilot->probes.begin(), plans.pilot->probes.end(),
+                    [](const ProbeStatistics& probe) { return probe.has_diffuse_indirect(); }));
+    return plans.pilot->has_tried(1);
+  };
+  const std::string lit_directly = view_of_floor(diffuse("0.1, 0.1, 0.1")) + lamp_above() +
+                                   sphere("0.5, 0.1, 0.4", 0.4, diffuse("0.1, 0.1, 0.1"));
+  const std::string lit_by_walls = camera("0.2, -0.1, -0.3", "1, 0.3, 0.2", 80, 16) +
+                                   sphere("0, 0, 0", 1, diffuse("0.8, 0.8, 0.8"), true) +
+                                   sphere("-0.4, 0.3, 0.1", 0.2f, area_light("1, 1, 1"));
+  for (const uint32_t samples : {1, 4}) {
+    EXPECT_FALSE(tried(lit_directly, samples)) << samples;
+    EXPECT_TRUE(tried(lit_by_walls, samples)) << samples;
+  }
+}
+
 /// Costs of the pilot are those of a pass: rays of light paths over camera samples.
 TEST(VcmPlanner, KnowsWhatAPassOfABallCosts) {
   const HollowBall ball;

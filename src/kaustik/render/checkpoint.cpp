@@ -15,7 +15,7 @@ namespace kaustik {
 namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {{0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-                                            15,
+                                            16,
                                             "checkpoint",
                                             "give a checkpoint (.kpt) that a render has written",
                                             "render again with this program"};

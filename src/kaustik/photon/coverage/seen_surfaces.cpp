@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/to_integer.h"
 
 namespace kaustik {
 namespace {
+
+/// On a side of a picture.
+constexpr double usual_blocks = 100;
 
 float mean_distance_of(const std::vector<PixelProbe>& probes) {
   double sum = 0;
@@ -40,7 +45,10 @@ DiskBounds bounds_by(const SurfaceEdges& edges, const Vec3f& position, float rad
 }  // namespace
 
 int SeenSurfaces::block_size_of(const Scene& scene) {
-  return scene.camera().traits().are_pixels_apart() ? 1 : block_size;
+  if (scene.camera().traits().are_pixels_apart()) return 1;
+  const Vec2i& size = scene.film().size;
+  const double side = std::sqrt(double(size.x) * double(size.y));
+  return to_integer(std::round(side / usual_blocks), least_block_size, most_block_size);
 }
 
 SeenSurfaces::SeenSurfaces(const Scene& scene)

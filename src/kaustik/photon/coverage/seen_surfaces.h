@@ -22,9 +22,11 @@ struct DiskBounds {
 /// them around the probes.
 class SeenSurfaces {
  public:
-  static constexpr int block_size = 4;  ///< usual number of pixels on a side of a block …
-  /// … and that of the scene: 1 where pixels are apart.
+  /// Pixels on a side of a block: as many as leave about a hundred blocks on a side of the picture,
+  /// within these bounds, for looking at them is not to take long beside a pass; 1 where pixels are
+  /// apart. Of a crop window the same as of the whole picture.
   static int block_size_of(const Scene& scene);
+  static constexpr int least_block_size = 4, most_block_size = 8;
   SeenSurfaces() = default;
   /// With probes, but no edges yet.
   explicit SeenSurfaces(const Scene& scene);

@@ -11,7 +11,7 @@ namespace {
 /// Distances, in pixels, between those whose surfaces ask for records, round by round.
 constexpr std::array<int, IndirectCache::most_rounds> strides{8, 4};
 // In the first pass; see CacheSettings.
-constexpr float first_quality = 0.25f, first_minimum_spacing = 3, first_maximum_spacing = 40;
+constexpr float first_quality = 0.35f, first_minimum_spacing = 3, first_maximum_spacing = 40;
 
 /// How much larger an error than in filling is allowed to who asks: else slivers between records
 /// would have other, coarser noise.
@@ -25,6 +25,9 @@ CacheSettings settings_of(const Pass& pass, int gather_rays) {
   settings.quality = first_quality * shrinkage;
   settings.minimum_spacing = first_minimum_spacing * shrinkage;
   settings.maximum_spacing = first_maximum_spacing * shrinkage;
+  // What few rays tell of second derivatives is noisy: the least reach of all around would be too
+  // small by far.
+  settings.neighbor_clamping = false;
   settings.hemisphere.samples = gather_rays;
   return settings;
 }

@@ -10,6 +10,9 @@ namespace {
 
 /// Gather rays of a record.
 constexpr int trial_rays = 32;
+/// Records of passes have more rays. So their second derivatives tell more, and there are more
+/// records: 1.03 to 1.18 times as many with 128 rays, in five scenes that ship.
+constexpr double more_records = 1.1;
 /// Noise of neighbouring probes that is as alike as this has a spread that probes do not tell.
 constexpr double most_alike = 0.99;
 
@@ -52,7 +55,7 @@ CacheTrial TrialCaches::next_round(const std::stop_token& stop) {
     result.ray_variance.push_back(float(by_rays * sqr(difference.of_light)));
     result.light_variance.push_back(float(by_light * sqr(difference.mean)));
   }
-  result.rays_per_ray = double(rays()) / (2 * trial_rays);
+  result.rays_per_ray = more_records * double(rays()) / (2 * trial_rays);
   return result;
 }
 

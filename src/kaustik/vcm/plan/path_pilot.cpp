@@ -15,7 +15,10 @@ namespace {
 /// What is told of a block then rests on more blocks around. Fewer than three tell little of a
 /// variance: in still larger pictures only some probes have paths.
 constexpr uint32_t most_paths_per_probe = 8, least_paths_per_probe = 3;
-constexpr size_t most_paths = 1 << 17;
+constexpr double most_paths = 1 << 17;
+/// Where blocks have several pixels there may be no more of them than this share of a pass's camera
+/// samples, or than so many if that is more.
+constexpr double share_of_pass = 1.0 / 8, fewest_paths = 1 << 13;
 /// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
 constexpr double kernel_efficiency = 0.75;
 /// Light that merging finds more often than this, per camera path of a pass, says nothing about how
@@ -170,13 +173,17 @@ struct PilotDensity {
   int stride = 1;
   uint32_t paths = 0;
 
-  /// In a picture of that size, of which a crop window is planned as the whole is.
-  PilotDensity(const Vec2i& size, int block_size) {
-    const size_t blocks =
-        std::max<size_t>(1, size_t(size.x) * size_t(size.y) / size_t(sqr(block_size)));
-    const auto affordable = [&] { return most_paths * size_t(sqr(stride)) / blocks; };
+  /// In a picture of that size, of which a crop window is planned as the whole is, for passes of so
+  /// many camera samples per pixel.
+  PilotDensity(const Vec2i& size, int block_size, double samples) {
+    const double pixels = double(size.x) * double(size.y);
+    const double most = block_size > 1
+                            ? std::clamp(share_of_pass * samples * pixels, fewest_paths, most_paths)
+                            : most_paths;
+    const double blocks = std::max(1.0, pixels / sqr(block_size));
+    const auto affordable = [&] { return most * sqr(stride) / blocks; };
     while (affordable() < least_paths_per_probe) ++stride;
-    paths = uint32_t(std::min<size_t>(affordable(), most_paths_per_probe));
+    paths = uint32_t(std::min(affordable(), double(most_paths_per_probe)));
   }
 };
 
@@ -339,7 +346,8 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
                                               uint64_t& rays, const std::stop_token& stop) {
   const std::vector<PixelProbe>& probes = plans.seen().probes();
   const BlockGrid& grid = plans.seen().grid();
-  const PilotDensity density(inputs.scene.film().size, grid.block_size());
+  const PilotDensity density(inputs.scene.film().size, grid.block_size(),
+                             double(inputs.camera_samples));
   // Of so many blocks each, whose middle one's probe has paths.
   const BlockGrid cells(grid.window(), grid.block_size() * density.stride);
   std::vector<ProbeStatistics> single(cells.size());

@@ -12,11 +12,12 @@ struct PilotLimits {
   ComponentSet components = ComponentSet::all();  ///< that are wanted
 };
 
-/// A few camera paths at the probes of `plans`, in pictures of more than about 836 × 836 pixels at
-/// some of them, so that they are 2¹⁷ at most; and the light vertices that merge there: how well
-/// either way finds the light. `inputs`: of the pilot pass; its weights know merging alone of what
-/// light paths do, and count those of a real pass. What comes back is averaged over the probes
-/// around; one for each probe. Counts the rays. Returns early once `stop` is requested.
+/// A few camera paths at the probes of `plans`, or at some of them: 8 at most of each, and in all
+/// no more than an eighth of a pass's camera samples (or 2¹³, if that is more), and than 2¹⁷; and
+/// the light vertices that merge there: how well either way finds the light. `inputs`: of the pilot
+/// pass; its weights know merging alone of what light paths do, and count those of a real pass.
+/// What comes back is averaged over the probes around; one for each probe. Counts the rays. Returns
+/// early once `stop` is requested.
 std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
                                               uint64_t& rays, const std::stop_token& stop = {});

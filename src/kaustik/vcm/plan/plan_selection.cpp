@@ -15,8 +15,6 @@ namespace {
 constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
 /// Fewer have wider disks, whose bias is not counted: they must be so much better.
 constexpr double worth_fewer = 1.25;
-/// The bias of a cache is not counted either.
-constexpr double worth_caching = 1.25;
 
 template <typename Value>
 double mean_of(const std::vector<PixelPlan>& plans, const Value& value) {

@@ -6,6 +6,9 @@
 
 namespace kaustik {
 
+/// A cache has to be so much better than none, for its bias is not counted.
+inline constexpr double worth_caching = 1.25;
+
 /// Settles the plans, which have a pilot, with a cache if that pays.
 void settle_with_cache(VcmPlans& plans);
 /// The same plans with as many light paths as pay, if any do, and a cache if that pays, settled and

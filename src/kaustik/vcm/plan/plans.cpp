@@ -103,6 +103,20 @@ double merging_in_common(const PixelPlans& pixels, size_t probe, float area) {
   return double(noise_in_common(spread_of_disk(std::sqrt(area * inv_pi) / width)));
 }
 
+/// What choose_plans() expects by compared_of() the probes, which probe(i) tells.
+template <typename Probe>
+Efficiency expected_of_compared(const Probe& probe, const PassCosts& costs,
+                                const std::vector<MergeScale>& scales, const PlanChoices& choices) {
+  std::vector<ProbeStatistics> compared;
+  std::vector<MergeScale> their_scales;
+  for (const size_t i : compared_of(scales.size())) {
+    compared.push_back(probe(i));
+    their_scales.push_back(scales[i]);
+  }
+  std::vector<PixelPlan> chosen(compared.size());
+  return choose_plans(compared, costs, their_scales, choices, chosen);
+}
+
 }  // namespace
 
 ProbeStatistics VcmPilot::probe_with(const CachePlan& cache, size_t probe) const {
@@ -122,14 +136,14 @@ std::vector<ProbeStatistics> VcmPilot::probes_with(const CachePlan& cache) const
 
 Efficiency VcmPilot::expected(const CachePlan& cache, const std::vector<MergeScale>& scales,
                               const PlanChoices& choices) const {
-  std::vector<ProbeStatistics> compared;
-  std::vector<MergeScale> their_scales;
-  for (const size_t i : compared_of(probes.size())) {
-    compared.push_back(probe_with(cache, i));
-    their_scales.push_back(scales[i]);
-  }
-  std::vector<PixelPlan> chosen(compared.size());
-  return choose_plans(compared, costs_with(cache), their_scales, choices, chosen);
+  return expected_of_compared([&](size_t i) { return probe_with(cache, i); }, costs_with(cache),
+                              scales, choices);
+}
+
+Efficiency VcmPilot::expected_with_ideal_cache(const std::vector<MergeScale>& scales,
+                                               const PlanChoices& choices) const {
+  return expected_of_compared([&](size_t i) { return probes[i].with_cache(0, 0); }, costs, scales,
+                              choices);
 }
 
 PassCosts VcmPilot::costs_with(const CachePlan& cache) const {
@@ -451,7 +465,11 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
   pilot.costs = {.camera_samples = samples,
                  .light_rays = double(light.rays) / light_share / (samples * pixels * shared_by),
                  .pixels = pixels};
-  if (is_cache_worth_a_trial(pilot) && !stop.stop_requested()) {
+  if (stop.stop_requested()) return pilot;
+  std::vector<MergeScale> scales(pilot.probes.size());
+  for (size_t i = 0; i < scales.size(); ++i)
+    scales[i].in_common = merging_in_common(plans.pixels, i, pilot.areas[i]);
+  if (is_cache_worth_a_trial(pilot, scales)) {
     const SidedTree<LightVertexData> focused = focused_vertices(light.vertices, stop);
     TrialCaches caches({.scene = scene_,
                         .light = light.vertices,
@@ -459,37 +477,39 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
                         .merge_radius_sq = settings.merge_area * inv_pi,
                         .maximum_events = settings_.maximum_events},
                        plans.pixels, stop);
-    try_caches(caches, plans.pixels, pilot, stop);
+    try_caches(caches, scales, pilot, stop);
     rays += caches.rays();
   }
   return pilot;
 }
 
-bool VcmPlanner::is_cache_worth_a_trial(const VcmPilot& pilot) const {
+bool VcmPlanner::is_cache_worth_a_trial(const VcmPilot& pilot,
+                                        const std::vector<MergeScale>& scales) const {
   if (settings_.choices.cache != CacheUse::choose)
     return settings_.choices.cache == CacheUse::always;
-  // To fill a cache for a single sample hardly ever pays, and the first picture waits for the
-  // trial.
-  return pilot.costs.camera_samples > 1 &&
-         std::any_of(pilot.probes.begin(), pilot.probes.end(),
-                     [](const ProbeStatistics& probe) { return probe.has_diffuse_indirect(); });
+  if (std::none_of(pilot.probes.begin(), pilot.probes.end(),
+                   [](const ProbeStatistics& probe) { return probe.has_diffuse_indirect(); }))
+    return false;
+  const double ideal = pilot.expected_with_ideal_cache(scales, settings_.choices).time();
+  return worth_caching * ideal < expected_time(pilot, scales, 0);
 }
 
-void VcmPlanner::try_caches(TrialCaches& caches, const PixelPlans& pixels, VcmPilot& pilot,
-                            const std::stop_token& stop) const {
+void VcmPlanner::try_caches(TrialCaches& caches, const std::vector<MergeScale>& scales,
+                            VcmPilot& pilot, const std::stop_token& stop) const {
   const bool is_asked_for = settings_.choices.cache == CacheUse::always;
-  std::vector<MergeScale> scales(pilot.probes.size());
-  for (size_t i = 0; i < scales.size(); ++i)
-    scales[i].in_common = merging_in_common(pixels, i, pilot.areas[i]);
-  const auto time = [&](int rounds) {
-    return pilot.expected({.rounds = rounds}, scales, settings_.choices).time();
-  };
   for (int rounds = 1; rounds <= IndirectCache::most_rounds; ++rounds) {
     pilot.cache_trials[size_t(rounds) - 1] = caches.next_round(stop);
     if (stop.stop_requested()) return;
     // Finer rounds cost more, and serve less.
-    if (!is_asked_for && !(time(rounds) < time(rounds - 1))) break;
+    if (!is_asked_for &&
+        !(expected_time(pilot, scales, rounds) < expected_time(pilot, scales, rounds - 1)))
+      break;
   }
+}
+
+double VcmPlanner::expected_time(const VcmPilot& pilot, const std::vector<MergeScale>& scales,
+                                 int cache_rounds) const {
+  return pilot.expected({.rounds = cache_rounds}, scales, settings_.choices).time();
 }
 
 }  // namespace kaustik

@@ -37,6 +37,9 @@ struct VcmPilot {
   /// compare. `scales` by probe.
   Efficiency expected(const CachePlan& cache, const std::vector<MergeScale>& scales,
                       const PlanChoices& choices) const;
+  /// The same with a cache that has its light everywhere, costs nothing and has no noise.
+  Efficiency expected_with_ideal_cache(const std::vector<MergeScale>& scales,
+                                       const PlanChoices& choices) const;
   float light_paths = 0;   ///< per camera sample, of the passes that it speaks of
   double light_share = 1;  ///< the pilot's light paths over those of such a pass
   /// Light arrives somewhere in the scene that no path from the camera can find, or media scatter
@@ -143,11 +146,15 @@ class VcmPlanner {
   VcmPilot make_pilot(const VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
                       const std::stop_token& stop, uint64_t& rays) const;
 
-  bool is_cache_worth_a_trial(const VcmPilot& pilot) const;
+  /// Whether an ideal cache would pay. `scales`: of the pilot's own disks.
+  bool is_cache_worth_a_trial(const VcmPilot& pilot, const std::vector<MergeScale>& scales) const;
   /// Tries the cache, as many rounds as may pay: what it serves, with what noise, and what it
-  /// costs.
-  void try_caches(TrialCaches& caches, const PixelPlans& pixels, VcmPilot& pilot,
+  /// costs. `scales`: of the pilot's own disks.
+  void try_caches(TrialCaches& caches, const std::vector<MergeScale>& scales, VcmPilot& pilot,
                   const std::stop_token& stop) const;
+  /// Efficiency::time() with a cache of so many rounds.
+  double expected_time(const VcmPilot& pilot, const std::vector<MergeScale>& scales,
+                       int cache_rounds) const;
 
   const Scene& scene_;
   const VcmSettings& settings_;
