@@ -11,9 +11,9 @@
 namespace kaustik {
 namespace {
 
-/// Paths of a probe: so many, but fewer in large pictures, so that there are hardly more in all.
-/// What is told of a block then rests on more blocks around. Fewer than three tell little of a
-/// variance: in still larger pictures only some probes have paths.
+/// Paths of a probe: so many, but fewer where all of them would be more than they may. What is told
+/// of a block then rests on more blocks around. Fewer than three tell little of a variance: where
+/// there would be fewer, only some probes have paths.
 constexpr uint32_t most_paths_per_probe = 8, least_paths_per_probe = 3;
 constexpr double most_paths = 1 << 17;
 /// Where blocks have several pixels there may be no more of them than this share of a pass's camera
