@@ -4,6 +4,7 @@
 #include "kaustik/vcm/plan/efficiency.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/light_pass.h"
@@ -68,6 +69,36 @@ TEST(Efficiency, ExpectedWhereAllGoOn) {
   EXPECT_NEAR(expected.rays, 2 + 6 + (1 + 3) * cost_model.merging + cost_model.light_ray, 1e-12);
   // No chance is better than the chosen one.
   EXPECT_LT(choose({probe}).expected.time(), expected.time());
+}
+
+/// A few probes with far more error than all others are not typical; light that is never found is.
+TEST(Efficiency, AHundredthOfTheProbesIsNotTypical) {
+  const ProbeStatistics common = light(0);
+  ProbeStatistics loud = common;
+  loud.direct_variance = 1e6;
+  const auto expected = [&](size_t loud_ones, double light_paths = 1) {
+    std::vector<ProbeStatistics> probes(1000, common);
+    std::fill_n(probes.begin() + 100, loud_ones, loud);
+    std::vector<PixelPlan> plans(probes.size());
+    return choose_plans(probes, {4, 1}, std::vector<MergeScale>(probes.size(), {1, light_paths}),
+                        {.survival = false, .light_samples = false}, plans);
+  };
+  const Efficiency quiet = expected(0);
+  EXPECT_NEAR(quiet.typical_squared_error / quiet.squared_error, 1, 1e-9);
+  EXPECT_NEAR(quiet.typical_time() / quiet.time(), 1, 1e-9);
+  const Efficiency few = expected(10);
+  EXPECT_NEAR(few.squared_error, 0.01 * 1e6 / 4 / 1.01, 1);
+  EXPECT_NEAR(few.typical_squared_error / quiet.squared_error, 1, 1e-9);
+  EXPECT_DOUBLE_EQ(few.rays, quiet.rays);
+  const Efficiency many = expected(11);
+  EXPECT_NEAR(many.typical_squared_error / many.squared_error, 1, 1e-9);
+
+  std::vector<ProbeStatistics> hidden(1000, common);
+  hidden[500].merged_alone = 1;
+  std::vector<PixelPlan> plans(hidden.size());
+  const auto no_light_paths = std::vector<MergeScale>(hidden.size(), {1, 0});
+  EXPECT_TRUE(
+      std::isinf(choose_plans(hidden, {4, 1}, no_light_paths, {}, plans).typical_squared_error));
 }
 
 /// With 4 samples, all of which go on, and no light paths the error is the variance of 4 samples.

@@ -4,6 +4,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/plan/cost_model.h"
+#include "kaustik/vcm/plan/plan_selection.h"
 #include "kaustik/vcm/plan/plans_file.h"
 #include "tests/vcm/hollow_ball.h"
 
@@ -236,6 +237,38 @@ TEST(VcmPlans, SettleByWhatIsChosen) {
       2 + 6 + 3 * cost_model.merging + rays_beside_camera_paths(one.probes, one.costs, {{0.75, 4}});
   EXPECT_DOUBLE_EQ(plans.settle(disks, 0.25f).rays, of_all);
   EXPECT_EQ(plans.pixels.plans()[0].survival, 1);
+}
+
+/// Whether a cache pays is told by the typical probe, not by the few that have most of all error.
+TEST(VcmPlans, FewLoudProbesDoNotHideThatACachePays) {
+  const TestScene scene(view_of_floor(diffuse("0.5, 0.5, 0.5"), 64));
+  VcmPlans plans = two_probes();
+  plans.pixels = PixelPlans(scene.scene());
+  const size_t count = plans.pixels.plans().size();
+  ASSERT_GT(count, 200u);
+  VcmPilot pilot = *plans.pilot;
+  pilot.needs_merging = true;
+  pilot.probes[0].direct_variance = pilot.probes[0].light_sample_variance = 0.01;
+  pilot.probes.assign(count, pilot.probes[0]);
+  pilot.areas.assign(count, pilot.areas[0]);
+  pilot.cache_trials[0] = {.served = std::vector<uint8_t>(count, 1),
+                           .ray_variance = std::vector<float>(count, 0.01f),
+                           .light_variance = std::vector<float>(count, 0.0f),
+                           .rays_per_ray = 0.1};
+  const auto rounds = [&](size_t loud_ones) {
+    VcmPilot with_loud = pilot;
+    for (size_t i = 0; i < loud_ones; ++i) with_loud.probes[10 + i].direct_variance = 1e5;
+    VcmPlans settled = plans;
+    settled.pilot = std::make_shared<const VcmPilot>(with_loud);
+    VcmPlans chosen = with_light_paths_that_pay(settled, {});
+    settle_with_cache(settled);
+    EXPECT_EQ(chosen.cache.rounds, settled.cache.rounds);
+    return settled.cache.rounds;
+  };
+  EXPECT_EQ(rounds(0), 1);
+  EXPECT_EQ(rounds(count / 100), 1);
+  // More of them are the typical ones.
+  EXPECT_EQ(rounds(count / 10), 0);
 }
 
 /// With a cache they are chosen by what it leaves, and by what it costs.

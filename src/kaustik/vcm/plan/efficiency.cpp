@@ -25,6 +25,9 @@ constexpr double even_share_of_probes = 0.1;
 constexpr int rounds = 6;
 constexpr size_t probes_at_a_time = 256;
 
+/// The largest errors of so large a share of the probes are not typical.
+constexpr double share_of_largest = 0.01;
+
 /// What a few paths have found nothing beyond is taken to have this share of the mean there: the
 /// paths of a picture, which are many more, may find light.
 constexpr double share_of_mean_unknown = 0.1;
@@ -168,6 +171,19 @@ Efficiency expected(const std::vector<Candidates>& all, const std::vector<Chosen
   return total;
 }
 
+/// Efficiency::typical_squared_error. What is infinite stays so: such light would never be found.
+double typical_error(const std::vector<Candidates>& all, const std::vector<Chosen>& chosen) {
+  std::vector<double> errors(all.size());
+  for (size_t p = 0; p < all.size(); ++p) errors[p] = squared_error(all[p], chosen[p]);
+  const auto largest = size_t(share_of_largest * double(errors.size()));
+  const auto bound = errors.end() - ptrdiff_t(largest) - 1;
+  std::nth_element(errors.begin(), bound, errors.end());
+  const double most = *bound;
+  double sum = 0;
+  for (const double error : errors) sum += std::isfinite(error) ? std::min(error, most) : error;
+  return sum / double(errors.size());
+}
+
 /// What is chosen at each probe, and what is expected of all.
 struct Choice {
   std::vector<Chosen> chosen;
@@ -294,6 +310,7 @@ Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCo
     plans[p].light_samples = light_counts[lights];
     plans[p].merging_in_common = float(scales[p].in_common);
   }
+  best.expected.typical_squared_error = typical_error(all, best.chosen);
   return best.expected;
 }
 

@@ -76,9 +76,14 @@ struct PassCosts {
 /// relative to the picture.
 struct Efficiency {
   double squared_error = 0;
+  /// The same, where the errors of the hundredth of the probes with the largest count as the
+  /// largest of the others. A few probes may have half of all error, most often of direct light
+  /// that few samples tell badly. What is done about the light of the others is judged without.
+  double typical_squared_error = 0;
   double rays = 0;
   /// Of what a given error takes.
   double time() const { return squared_error * rays; }
+  double typical_time() const { return typical_squared_error * rays; }
 };
 
 /// What a camera sample takes beside the rays of its path, in rays, on average: merging, and its

@@ -58,59 +58,65 @@ void choose_gather_rays(VcmPlans& plans) {
   for (int rays = IndirectCache::least_gather_rays; rays <= IndirectCache::most_gather_rays;
        rays *= 2) {
     other.cache.gather_rays = rays;
-    const double time = other.expected(plans.pixels.plans(), 1).time();
+    const double time = other.expected(plans.pixels.plans(), 1).typical_time();
     if (!(time < least)) continue;
     least = time;
     plans.cache.gather_rays = rays;
   }
 }
 
-}  // namespace
-
-void settle_with_cache(VcmPlans& plans) {
+/// Fills the cache in as many rounds as pay, by what is typical, and returns what is expected.
+Efficiency choose_cache(VcmPlans& plans) {
   const std::vector<PixelPlan> disks = plans.pixels.plans();
-  std::optional<VcmPlans> best;
+  std::optional<Efficiency> best;
   double least = 0;
   for (const int rounds : rounds_to_choose_from(plans)) {
     VcmPlans other = plans;
     other.cache.rounds = rounds;
-    const double time = other.expected(disks, 1).time() * (rounds > 0 ? worth_caching : 1);
+    const Efficiency expected = other.expected(disks, 1);
+    const double time = expected.typical_time() * (rounds > 0 ? worth_caching : 1);
     if (best && !(time < least)) continue;
     least = time;
-    best = std::move(other);
+    best = expected;
+    plans.cache.rounds = rounds;
   }
-  plans = std::move(*best);
+  return *best;
+}
+
+}  // namespace
+
+void settle_with_cache(VcmPlans& plans) {
+  choose_cache(plans);
   choose_gather_rays(plans);
-  plans.settle(disks, 1);
+  plans.settle(plans.pixels.plans(), 1);
 }
 
 VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token& stop) {
   const std::vector<PixelPlan> disks = plans.pixels.plans();
-  const auto with = [&](float light_paths, int cache_rounds) {
-    VcmPlans result = plans;
-    result.light_paths = light_paths;
-    result.cache.rounds = cache_rounds;
-    if (light_paths == 0) result.techniques = result.techniques.of_camera_paths();
-    const Efficiency expected = result.expected(disks, 1);
-    return std::pair(std::move(result), expected);
+  struct Choice {
+    VcmPlans plans;
+    Efficiency expected;
   };
-  const auto of_paths_alone = with(0, 0);
   const bool needs_merging = plans.pilot->needs_merging;
-  auto best = of_paths_alone;
+  Choice of_paths_alone{plans, {}};
+  of_paths_alone.plans.light_paths = 0;
+  of_paths_alone.plans.cache.rounds = 0;
+  of_paths_alone.plans.techniques = plans.techniques.of_camera_paths();
+  of_paths_alone.expected = of_paths_alone.plans.expected(disks, 1);
+  Choice best = of_paths_alone;
   if (needs_merging || plans.choices.cache == CacheUse::always)
-    best.second.squared_error = std::numeric_limits<double>::infinity();
-  for (const float factor : light_path_factors)
-    for (const int rounds : rounds_to_choose_from(plans)) {
-      if (stop.stop_requested()) return plans;
-      auto other = with(plans.pilot->light_paths * factor, rounds);
-      double handicap = factor < 1 && best.first.techniques.merging ? worth_fewer : 1;
-      if (rounds > 0 && best.first.cache.rounds == 0) handicap *= worth_caching;
-      if (rounds == 0 && best.first.cache.rounds > 0) handicap /= worth_caching;
-      if (other.second.time() * handicap < best.second.time()) best = std::move(other);
-    }
+    best.expected.squared_error = std::numeric_limits<double>::infinity();
+  for (const float factor : light_path_factors) {
+    if (stop.stop_requested()) return plans;
+    Choice other{plans, {}};
+    other.plans.light_paths = plans.pilot->light_paths * factor;
+    other.expected = choose_cache(other.plans);
+    const double handicap = factor < 1 && best.plans.techniques.merging ? worth_fewer : 1;
+    if (other.expected.time() * handicap < best.expected.time()) best = std::move(other);
+  }
   const double gain = needs_merging ? std::numeric_limits<double>::infinity()
-                                    : of_paths_alone.second.time() / best.second.time();
-  VcmPlans result = std::move(best.first);
+                                    : of_paths_alone.expected.time() / best.expected.time();
+  VcmPlans result = std::move(best.plans);
   choose_gather_rays(result);
   result.settle(disks, 1);
   result.decisions.push_back(described(result, gain));

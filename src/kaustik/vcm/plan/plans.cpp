@@ -490,7 +490,7 @@ bool VcmPlanner::is_cache_worth_a_trial(const VcmPilot& pilot,
   if (std::none_of(pilot.probes.begin(), pilot.probes.end(),
                    [](const ProbeStatistics& probe) { return probe.has_diffuse_indirect(); }))
     return false;
-  const double ideal = pilot.expected_with_ideal_cache(scales, settings_.choices).time();
+  const double ideal = pilot.expected_with_ideal_cache(scales, settings_.choices).typical_time();
   return worth_caching * ideal < expected_time(pilot, scales, 0);
 }
 
@@ -509,7 +509,7 @@ void VcmPlanner::try_caches(TrialCaches& caches, const std::vector<MergeScale>& 
 
 double VcmPlanner::expected_time(const VcmPilot& pilot, const std::vector<MergeScale>& scales,
                                  int cache_rounds) const {
-  return pilot.expected({.rounds = cache_rounds}, scales, settings_.choices).time();
+  return pilot.expected({.rounds = cache_rounds}, scales, settings_.choices).typical_time();
 }
 
 }  // namespace kaustik
