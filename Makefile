@@ -144,10 +144,10 @@ package: configure
 	cd $(BUILD) && cpack
 	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
 
-# docs/parameters.md, from the tables in the program.
+# The generated parts of docs/reference, from the tables in the program.
 docs: configure
 	@cmake --build --preset release --target kaustik
-	scripts/make_parameters_page.sh $(program) >docs/parameters.md
+	scripts/reference_pages.py $(program)
 
 format:
 	@scripts/install_packages.sh check
