@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Writes the generated parts of docs/reference: tables of parameters, lists of types, list of families.
+"""Writes the generated parts of docs/reference: tables of parameters, lists of types, list of families, options of commands.
 
 Usage: scripts/reference_pages.py PROGRAM [--check]
 
-Everything comes from `PROGRAM help` and `PROGRAM help FAMILY`. What lies between these lines is replaced:
+Everything comes from `PROGRAM help`, `PROGRAM help FAMILY`, `PROGRAM --help` and `PROGRAM COMMAND --help`. What lies between
+these lines is replaced:
 
     docs/reference/FAMILY/TYPE.md     <!-- parameters --> … <!-- end of parameters -->
     docs/reference/FAMILY/index.md    <!-- types --> … <!-- end of types -->
     docs/reference/index.md           <!-- families --> … <!-- end of families -->
+    docs/reference/cli.md             <!-- commands --> … <!-- end of commands -->
 
 All other text is written by hand and stays. A page that is missing is created, with a title, the program's sentence and the
 picture of the gallery if there is one. --check writes nothing: it names every page that differs, every type without a page
@@ -180,6 +182,106 @@ def new_type_page(type_):
     return lines + ["## Parameters", "", "<!-- parameters -->", "<!-- end of parameters -->"]
 
 
+class Command:
+    """What `--help` says of the program or of one of its commands."""
+
+    COLUMN = 30  # in bytes: there meanings begin
+
+    def __init__(self, program, name):
+        self.name, self.usage, self.sentence = name, "", ""
+        self.entries = {"Positionals": [], "Options": [], "Subcommands": [], "Exit codes": []}  # (what, meaning)
+        self.after, section = [], None
+        for line in output_of(program, *name.split(), "--help").rstrip().splitlines():
+            if line.startswith("Usage: "):
+                self.usage = line.removeprefix("Usage: ")
+            elif line.rstrip(":") in self.entries:
+                section = line.rstrip(":")
+            elif section and line.startswith("  "):
+                self.add_entry(self.entries[section], line, is_wide=section != "Exit codes")
+            elif not self.usage:
+                self.sentence = line
+            else:
+                section = None
+                self.after.append(line)
+
+    def add_entry(self, entries, line, is_wide):
+        if not is_wide:
+            entries.append(line.split(None, 1))
+        elif not line[:self.COLUMN].strip():
+            entries[-1] = [" ".join(filter(None, entries[-1])), line.strip()]
+        elif len(line.encode()) > self.COLUMN and line.encode()[self.COLUMN - 1:self.COLUMN] == b" ":
+            entries.append([part.decode().strip() for part in (line.encode()[:self.COLUMN], line.encode()[self.COLUMN:])])
+        else:
+            entries.append([line.strip(), ""])
+
+    def text_after(self, general):
+        """Lines below the options, if they are the command's own."""
+        return [] if self.after == general.after else "\n".join(self.after).strip().split("\n")
+
+
+VALUES = {"INT": "integer", "UINT": "integer", "FLOAT": "number"}
+
+
+def option_row(what, meaning):
+    """A line of a table, of '-o,--output FILE ... REQUIRED' and its meaning."""
+    notes = []
+    for keyword, note in (("Needs", "needs"), ("Excludes", "not with")):
+        if match := re.search(rf" {keyword}: (\S+)", what):
+            notes.append(f"{note} {code(match[1])}")
+            what = what.replace(match[0], "")
+    if what.endswith(" REQUIRED"):
+        notes.insert(0, "required")
+        what = what.removesuffix(" REQUIRED")
+    if what.endswith(" ..."):
+        notes += ["repeatable"] if "may be repeated" not in meaning else []
+        what = what.removesuffix(" ...")
+    names, _, value = what.partition(" ")
+    names, _, optional = names.partition("{")
+    value, _, limits = value.partition(":") if "SIZE" not in value else ("SIZE", "", "")
+    if re.fullmatch(r"[A-Z]+", limits):
+        value, limits = f"{value}:{limits}", ""
+    if optional:
+        value = f"optional [{optional.rstrip('}')}]"
+    elif "|" in value:
+        value = ", ".join(code(choice) for choice in value.split("|"))
+    elif value:
+        value = VALUES.get(value, code(value)) + (f", {limits}" if limits else "")
+    notes = f" ({', '.join(notes)})" if notes else ""
+    return f"| {', '.join(code(name) for name in names.split(','))} | {value} | {escaped(meaning)}{notes} |"
+
+
+def commands_block(program):
+    """All commands with their options, and the exit codes."""
+    general = Command(program, "")
+    lines = [general.sentence, "", "| Command | Meaning |", "|---|---|"]
+    for name, meaning in general.entries["Subcommands"]:
+        lines.append(f"| [{code(name)}](#kaustik-{name}) | {escaped(meaning)} |")
+    lines += ["", "| Exit code | Meaning |", "|---|---|"]
+    lines += [f"| {number} | {escaped(meaning)} |" for number, meaning in general.entries["Exit codes"]]
+    lines += ["", "## kaustik", "", *command_lines(general, general)]
+    for name, _ in general.entries["Subcommands"]:
+        command = Command(program, name)
+        lines += ["", f"## kaustik {name}", "", escaped(command.sentence), "", *command_lines(command, general)]
+    return lines
+
+
+def command_lines(command, general):
+    lines = ["Usage: " + code(command.usage)]
+    for kind, title in (("Positionals", "Argument"), ("Options", "Option")):
+        rows = [option_row(*entry) for entry in command.entries[kind] if not entry[0].startswith("-h,--help")]
+        if rows:
+            lines += ["", f"| {title} | Value | Meaning |", "|---|---|---|", *rows]
+    is_code = False
+    for line in command.text_after(general) if command is not general else []:
+        if line.startswith("  ") != is_code:
+            is_code = not is_code
+            lines += ["", "<!-- not run: in --help, whose commands are run -->", "```sh"] if is_code else ["```", ""]
+        elif line and not is_code:
+            lines.append("")
+        lines.append(line.removeprefix("  ") if is_code else escaped(line))
+    return lines + ["```"] if is_code else lines
+
+
 class Pages:
     """Writes blocks, or only compares them."""
 
@@ -235,6 +337,9 @@ def main():
         pages.put(REFERENCE / family / "index.md", "types", types_block(of_name), new_page, f"family '{family}'")
     new_page = ["# Reference", "", "All families of types, with every parameter.", "", "<!-- families -->", "<!-- end of families -->"]
     pages.put(REFERENCE / "index.md", "families", families_block(families), new_page, "all families")
+    new_page = ["# Commands", "", "All commands of the program, with every option.", "", "<!-- commands -->",
+                "<!-- end of commands -->"]
+    pages.put(REFERENCE / "cli.md", "commands", commands_block(arguments.program), new_page, "the commands")
     pages.find_strays(families)
     for complaint in pages.complaints:
         print(complaint, file=sys.stderr)
