@@ -144,10 +144,14 @@ package: configure
 	cd $(BUILD) && cpack
 	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
 
-# The generated parts of docs/reference, from the tables in the program.
+# The generated parts of docs/reference, from the tables in the program; then the documentation as a site, build/site:
+# python3 -m http.server --bind 127.0.0.1 --directory build/site 8000
 docs: configure
 	@cmake --build --preset release --target kaustik
 	scripts/reference_pages.py $(program)
+	scripts/check_docs.py
+	@scripts/install_packages.sh docs
+	scripts/build_site.sh
 
 format:
 	@scripts/install_packages.sh check

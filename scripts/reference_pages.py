@@ -258,7 +258,7 @@ def commands_block(program):
         lines.append(f"| [{code(name)}](#kaustik-{name}) | {escaped(meaning)} |")
     lines += ["", "| Exit code | Meaning |", "|---|---|"]
     lines += [f"| {number} | {escaped(meaning)} |" for number, meaning in general.entries["Exit codes"]]
-    lines += ["", "## kaustik", "", *command_lines(general, general)]
+    lines += ["", "## kaustik", *command_lines(general, general)]
     for name, _ in general.entries["Subcommands"]:
         command = Command(program, name)
         lines += ["", f"## kaustik {name}", "", escaped(command.sentence), "", *command_lines(command, general)]
@@ -266,7 +266,8 @@ def commands_block(program):
 
 
 def command_lines(command, general):
-    lines = ["Usage: " + code(command.usage)]
+    """Usage, tables of arguments and options, and the command's own text."""
+    lines = ["Usage: " + code(command.usage)] if command is not general else []
     for kind, title in (("Positionals", "Argument"), ("Options", "Option")):
         rows = [option_row(*entry) for entry in command.entries[kind] if not entry[0].startswith("-h,--help")]
         if rows:
