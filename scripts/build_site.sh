@@ -18,8 +18,8 @@ if ! cmp -s scripts/site/package-lock.json $packages/package-lock.json || [[ ! -
   npm ci --prefix $packages --no-audit --no-fund --silent
 fi
 
-# The pages that are in no navigation (those that have moved, sources) are told at length: left out.
-mkdocs build --strict --quiet
+# What it tells besides warnings, such as which pages are in no navigation, is of no use.
+mkdocs build --strict >$packages/mkdocs.txt 2>&1 || { grep -v '^INFO\|^  - ' $packages/mkdocs.txt >&2; exit 1; }
 if [[ $has_api == 1 ]]; then
   doxygen -l $packages/api_layout.xml
   sed -i 's|<tab type="mainpage".*|&<tab type="user" url="../index.html" title="Manual"/>|' $packages/api_layout.xml

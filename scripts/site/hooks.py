@@ -21,13 +21,13 @@ import doc_pages  # noqa: E402
 
 log = logging.getLogger("mkdocs.site")
 ROOT = doc_pages.ROOT
-SITE_FILES = ROOT / "scripts/site"
 REPOSITORY = "repository/"
 LANGUAGES = {".xml": "xml", ".cpp": "cpp", ".h": "cpp", ".py": "python", ".sh": "bash", ".awk": "awk", ".ts": "typescript",
              ".mjs": "javascript", ".json": "json", ".txt": "text", ".yml": "yaml", ".toml": "toml", ".bib": "bibtex"}
 MOST_SHOWN = 400_000  # bytes of a source
 SOURCE = re.compile(r"(?:src|include|apps|examples|benchmarks|scripts|tests|python|cmake|scenes)/[\w./-]+\.\w+")
-ASSETS = {"site.css": "assets/site.css", "formulas.js": "assets/formulas.js"}
+ASSETS = {"scripts/site/site.css": "assets/site.css", "scripts/site/formulas.js": "assets/formulas.js",
+          "apps/view/src/icon.svg": "assets/icon.svg"}
 MATHJAX = ROOT / "build/site_packages/node_modules/mathjax/es5/tex-svg-full.js"
 
 slugs = doc_pages.Slugs()
@@ -171,7 +171,7 @@ def on_files(files, config):
                 add(target.removesuffix(".md"), ROOT / path)  # to download
             waiting.append(target)
     for name, uri in ASSETS.items():
-        add(uri, SITE_FILES / name)
+        add(uri, ROOT / name)
     if MATHJAX.exists():
         add("assets/mathjax.js", MATHJAX)
     else:
@@ -335,14 +335,34 @@ def on_page_read_source(page, config):
 def on_page_markdown(markdown, page, config, files):
     slugs.__init__()
     page.title = doc_pages.plain(page.title) if page.title else page.title
+    if page.is_homepage:
+        page.meta["hide"] = ["navigation"]
     if page.file.src_uri in shown and (ROOT / shown[page.file.src_uri]).is_file():
         return with_links(markdown, page.file, files)
     return for_python_markdown(with_links(markdown, page.file, files))
 
 
+def with_labels(table):
+    """A table of parameters or options whose cells say what they are: on phones they stand in lines."""
+    heads = re.findall(r"<th[^>]*>(.*?)</th>", table)
+    if len(heads) < 3 or heads[-1] != "Meaning" or heads[0] not in ("Name", "Option", "Argument"):
+        return f'<div class="table">{table}</div>'
+
+    def row(match):
+        cells = iter(heads)
+        return re.sub(r"<td([^>]*)>", lambda cell: labelled(cell, next(cells)), match[0])
+
+    def labelled(cell, head):
+        label = {"Default": "default", "Range or choices": "range"}.get(head)
+        shown_label = f' data-label="{label}"' if label else ' data-label=""' if head in ("Kind", "Value") else ""
+        return f"<td{cell[1]}{shown_label}>"
+
+    return f'<div class="table parameters">{re.sub(r"<tr>.*?</tr>", row, table, flags=re.DOTALL)}</div>'
+
+
 def on_page_content(html, page, config, files):
     """Tables scroll by themselves on narrow screens."""
-    return html.replace("<table>", '<div class="table"><table>').replace("</table>", "</table></div>")
+    return re.sub(r"<table>.*?</table>", lambda match: with_labels(match[0]), html, flags=re.DOTALL)
 
 
 def on_post_build(config):
