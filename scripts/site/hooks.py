@@ -23,9 +23,10 @@ log = logging.getLogger("mkdocs.site")
 ROOT = doc_pages.ROOT
 REPOSITORY = "repository/"
 LANGUAGES = {".xml": "xml", ".cpp": "cpp", ".h": "cpp", ".py": "python", ".sh": "bash", ".awk": "awk", ".ts": "typescript",
-             ".mjs": "javascript", ".json": "json", ".txt": "text", ".yml": "yaml", ".toml": "toml", ".bib": "bibtex"}
+             ".mjs": "javascript", ".json": "json", ".txt": "text", ".yml": "yaml", ".toml": "toml", ".bib": "bibtex", ".cmake": "cmake"}
 MOST_SHOWN = 400_000  # bytes of a source
-SOURCE = re.compile(r"(?:src|include|apps|examples|benchmarks|scripts|tests|python|cmake|scenes)/[\w./-]+\.\w+")
+SOURCE = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.\w+")
+SOURCE_FOLDERS = ("", "src/kaustik/", "tests/")  # pages name files from these
 ASSETS = {"scripts/site/site.css": "assets/site.css", "scripts/site/formulas.js": "assets/formulas.js",
           "apps/view/src/icon.svg": "assets/icon.svg"}
 MATHJAX = ROOT / "build/site_packages/node_modules/mathjax/es5/tex-svg-full.js"
@@ -101,14 +102,25 @@ def text_of(uri):
     return shown_folder(path) if (ROOT / path).is_dir() else shown_source(path)
 
 
+def mentioned(code):
+    """The file that code within text names, such as `transport/component.h`; None if it is none."""
+    if SOURCE.fullmatch(code):
+        for folder in SOURCE_FOLDERS:
+            file = ROOT / folder / code
+            if file.is_file() and language_of(file):
+                return folder + code
+    return None
+
+
 def mentions(text):
-    """(start, end, path) of `src/…` and the like in code that is no link."""
+    """(start, end, path) of sources that are named in code that is no link."""
     prose = doc_pages.without_fences(text)
     links = [match.span() for match in doc_pages.LINK.finditer(doc_pages.prose_of(text))]
     for match in doc_pages.CODE.finditer(prose):
-        if SOURCE.fullmatch(match[2]) and (ROOT / match[2]).is_file() and language_of(ROOT / match[2]):
-            if not any(start <= match.start() < end for start, end in links) and not in_heading(text, match.start()):
-                yield match.start(), match.end(), match[2]
+        path = mentioned(match[2])
+        if path and not in_heading(text, match.start()):
+            if not any(start <= match.start() < end for start, end in links):
+                yield match.start(), match.end(), path
 
 
 def in_heading(text, position):
@@ -285,6 +297,7 @@ def for_python_markdown(text):
             put(line, stack[-1] if stack else 0)
             if mark and mark[1].startswith(fence) and not line.replace(mark[1], "").strip(" >"):
                 fence = None
+                result.append("")
             continue
         if not line.strip():
             result.append("")
