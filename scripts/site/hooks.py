@@ -378,6 +378,14 @@ def on_page_content(html, page, config, files):
     return re.sub(r"<table>.*?</table>", lambda match: with_labels(match[0]), html, flags=re.DOTALL)
 
 
+def on_post_page(output, page, config):
+    """Without the theme's indentation, which is most of a page: hundreds of entries of the navigation."""
+    parts = re.split(r"(<(pre|script|textarea)\b.*?</\2>)", output, flags=re.DOTALL)
+    parts[::3] = [re.sub(r"\s*\n\s*", "\n", part) for part in parts[::3]]
+    del parts[2::3]
+    return "".join(parts)
+
+
 def on_post_build(config):
     """Sources and pages that have moved are not what a search looks for."""
     path = pathlib.Path(config["site_dir"]) / "search/search_index.json"
