@@ -104,7 +104,7 @@ references: configure
 	@cmake --build --preset release --target kaustik add_images_tool
 	benchmarks/make_references.sh $(subst $(comma), ,$(SCENES))
 
-# `import kaustik` in .venv, its tests, and a picture by it: docs/python.md. PYTHON=… for another one than Debian's.
+# `import kaustik` in .venv, its tests, and a picture by it: docs/guides/python.md. PYTHON=… for another one than Debian's.
 PYTHON ?= /usr/bin/python3
 python: setup
 	@scripts/install_packages.sh python

@@ -5,8 +5,9 @@ Usage: scripts/check_docs.py [--root FOLDER]
 
 Each mistake is a line `file:line: what is wrong`, and the exit code is 1 if there are any:
 
-- in all pages: links and pictures to files that are not there, anchors that no heading has (by GitHub's rule, which is also
-  the site's), links out of the repository, `$$` without its partner or with a blank line before it;
+- in all pages: links and pictures to files that are not there, links to pages that have moved, anchors that no heading has
+  (by GitHub's rule, which is also the site's), links out of the repository, `$$` without its partner or with a blank line
+  before it;
 - in pages under docs/ that are written by hand: 1500 words or more, and lines of prose over 120 characters that could be
   broken. Tables, code, formulas and comments are exempt. So are generated blocks, `<!-- KIND -->` … `<!-- end of KIND -->`;
 - pages under docs/ to which no other page links. Pages that only say where their text has gone are exempt.
@@ -56,7 +57,9 @@ class Checker:
             elif path in self.texts:
                 if path != page and not doc_pages.is_stub(text):
                     self.linked.add(path)
-                if anchor and anchor not in self.anchors_of(path):
+                if doc_pages.is_stub(self.texts[path]):
+                    self.fail(page, line, f"link to a page that has moved: {link.target}")
+                elif anchor and anchor not in self.anchors_of(path):
                     self.fail(page, line, f"no heading of {path} has the anchor #{anchor}")
             elif anchor and not re.fullmatch(r"L\d+(-L\d+)?", anchor):
                 self.fail(page, line, f"{path} is no page, so it has no anchor #{anchor}")

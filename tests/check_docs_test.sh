@@ -13,7 +13,7 @@ touch "$folder/docs/pictures/ring.png"
 echo "<scene/>" >"$folder/scenes/ring/ring.xml"
 cat >"$folder/README.md" <<'PAGE'
 # A renderer
-[Page](docs/page.md), [other page](docs/other.md#one-light--many-lights), [old page](docs/old.md)
+[Page](docs/page.md), [other page](docs/other.md#one-light--many-lights)
 PAGE
 cat >"$folder/docs/other.md" <<'PAGE'
 # Other
@@ -102,6 +102,9 @@ By [reference].
 PAGE
 plant "docs/page.md:1: link out of the repository: ../../elsewhere.md" <<'PAGE'
 [elsewhere](../../elsewhere.md)
+PAGE
+plant "docs/page.md:1: link to a page that has moved: old.md" <<'PAGE'
+[old](old.md)
 PAGE
 plant "docs/page.md:1: 1500 words" <<PAGE
 $words
