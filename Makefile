@@ -104,7 +104,7 @@ references: configure
 	@cmake --build --preset release --target kaustik add_images_tool
 	benchmarks/make_references.sh $(subst $(comma), ,$(SCENES))
 
-# `import kaustik` in .venv, its tests, and a picture by it: docs/python.md. PYTHON=… for another one than Debian's.
+# `import kaustik` in .venv, its tests, and a picture by it: docs/guides/python.md. PYTHON=… for another one than Debian's.
 PYTHON ?= /usr/bin/python3
 python: setup
 	@scripts/install_packages.sh python
@@ -144,10 +144,14 @@ package: configure
 	cd $(BUILD) && cpack
 	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
 
-# docs/parameters.md, from the tables in the program.
+# The generated parts of docs/reference, from the tables in the program; then the documentation as a site, build/site:
+# python3 -m http.server --bind 127.0.0.1 --directory build/site 8000
 docs: configure
 	@cmake --build --preset release --target kaustik
-	scripts/make_parameters_page.sh $(program) >docs/parameters.md
+	scripts/reference_pages.py $(program)
+	scripts/check_docs.py
+	@scripts/install_packages.sh docs
+	scripts/build_site.sh
 
 format:
 	@scripts/install_packages.sh check

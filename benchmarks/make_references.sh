@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes references, benchmarks/references/SCENE.exr with the standard error of each pixel. Each
-# component of the light (docs/architecture.md) comes from what finds it best without bias: path
+# component of the light (docs/developer/vocabulary.md) comes from what finds it best without bias: path
 # tracing what it can, light tracing what lamps focus (L S+ D E) and what only they find. What
 # mirrors, glass and water show of such light no unbiased method finds in reasonable time; there, and
 # for light that is scattered on from it, it is auto, whose bias shrinks with the passes: the tests

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks who includes whom: the rooms of src/kaustik against the table of docs/architecture.md, and
+# Checks who includes whom: the rooms of src/kaustik against the table of docs/developer/architecture.md, and
 # each library against the room that owns it. Usage: check_layers.sh [ROOT]; prints FILE:LINE and
 # what is wrong there.
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, wheel, notebooks,
-# view. Asks nothing, and needs no network when everything is there already.
+# view, docs. Asks nothing, and needs no network when everything is there already.
 set -euo pipefail
 
 build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
@@ -14,8 +14,9 @@ python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-d
 wheel=(patchelf mmdebstrap)
 notebooks=(python3-nbclient python3-nbformat python3-ipykernel python3-matplotlib)
 view=(chromium)
+docs=(mkdocs mkdocs-material python3-pymdownx doxygen)
 # Whoever has them from elsewhere keeps those.
-command -v npm >/dev/null || view+=(nodejs npm)
+command -v npm >/dev/null || { view+=(nodejs npm); docs+=(nodejs npm); }
 
 wanted=()
 for group in "$@"; do
@@ -29,7 +30,8 @@ for group in "$@"; do
     wheel) wanted+=("${wheel[@]}") ;;
     notebooks) wanted+=("${notebooks[@]}") ;;
     view) wanted+=("${view[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python, wheel, notebooks and view" >&2; exit 2 ;;
+    docs) wanted+=("${docs[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python, wheel, notebooks, view and docs" >&2; exit 2 ;;
   esac
 done
 

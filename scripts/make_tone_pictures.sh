@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of docs/tone_mapping.md (three minutes on two cores).
+# Makes the pictures of docs/guides/tone_mapping.md and docs/reference/tonemap (three minutes on two cores).
 # Usage: make_tone_pictures.sh [PROGRAM]
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -32,7 +32,7 @@ class KAUSTIK_EXPORT Mesh {
 
   size_t vertex_count() const noexcept { return vertex_count_; }
   size_t face_count() const noexcept { return face_count_; }
-  /// A shape of type mesh, for a scene: give it a bsdf, and what else docs/parameters.md lists.
+  /// A shape of type mesh, for a scene: give it a bsdf, and what else docs/reference lists.
   Object shape(std::string id = {}) const;
 
  private:

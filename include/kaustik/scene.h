@@ -14,7 +14,7 @@ struct ObjectState;
 struct SceneState;
 }  // namespace details
 
-/// An object of a scene: family, type and parameters with the names of docs/parameters.md, and
+/// An object of a scene: family, type and parameters with the names of docs/reference, and
 /// objects within it. A value: what is done to a copy leaves the other as it was. An object that is
 /// put into several others unchanged is one in the scene.
 class KAUSTIK_EXPORT Object {

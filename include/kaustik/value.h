@@ -83,7 +83,7 @@ class KAUSTIK_EXPORT Array {
   std::shared_ptr<const details::ArrayState> state_;
 };
 
-/// The value of a parameter. Its type has to be that of the parameter in docs/parameters.md; a
+/// The value of a parameter. Its type has to be that of the parameter in docs/reference; a
 /// whole number does for a number.
 class KAUSTIK_EXPORT Value {
  public:
