@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs notebooks and writes them with what they show, as `make notebooks` does. The picture of the cell that has the
-tag "cover" goes into a file beside the notebook, for docs/python.md. Usage: make_notebooks.py NOTEBOOK.ipynb ..."""
+tag "cover" goes into a file beside the notebook, for docs/guides/python.md. Usage: make_notebooks.py NOTEBOOK.ipynb ..."""
 
 import base64
 import pathlib

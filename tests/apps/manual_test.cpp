@@ -67,7 +67,7 @@ class Manual : public ProgramTest {
 TEST_F(Manual, ExitCodesAreOneTable) {
   const std::string table = run_well({"help", "exit"}).out;
   EXPECT_TRUE(contains(run_well({"--help"}).out, table));
-  std::ifstream file(KAUSTIK_SOURCE_DIR "/docs/command_line.md");
+  std::ifstream file(KAUSTIK_SOURCE_DIR "/docs/reference/cli.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::string manual = run_well({"man"}).out;
   const std::regex row("\n  ([0-9+n]+) +([^\n]+)");
