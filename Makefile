@@ -136,13 +136,15 @@ install: configure
 	@cmake --build --preset release --target kaustik
 	cmake --install $(BUILD) --prefix $(PREFIX) --component program
 
-# Debian packages in build/release: kaustik, libkaustik0, libkaustik-dev, python3-kaustik.
+# In build/release, Debian packages (kaustik, libkaustik0, libkaustik-dev, python3-kaustik) and kaustik-….tar.xz, which runs
+# where it is unpacked.
 package: configure
 	@scripts/install_packages.sh package python
 	@cmake --preset release -D KAUSTIK_PYTHON=ON
 	@cmake --build --preset release --target kaustik libkaustik kaustik_package
 	cd $(BUILD) && cpack
 	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
+	scripts/portable_tarball.py $(BUILD) $(BUILD)
 
 # docs/parameters.md, from the tables in the program.
 docs: configure

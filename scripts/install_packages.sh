@@ -8,7 +8,7 @@ build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-de
   libboost1.81-dev)
 check=(clang clang-format libclang-rt-14-dev)
 coverage=(llvm-14)
-package=(dpkg-dev file)
+package=(dpkg-dev file patchelf)
 bench=(blender povray)
 python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
 wheel=(patchelf mmdebstrap)
