@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package package-test docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -137,7 +137,7 @@ install: configure
 	cmake --install $(BUILD) --prefix $(PREFIX) --component program
 
 # In build/release, Debian packages (kaustik, libkaustik0, libkaustik-dev, python3-kaustik) and kaustik-….tar.xz, which runs
-# where it is unpacked.
+# where it is unpacked: docs/developer/packages.md.
 package: configure
 	@scripts/install_packages.sh package python
 	@cmake --preset release -D KAUSTIK_PYTHON=ON
@@ -145,6 +145,11 @@ package: configure
 	cd $(BUILD) && cpack
 	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
 	scripts/portable_tarball.py $(BUILD) $(BUILD)
+
+# The same in a bare Debian 12 and a bare Debian 13. Needs root and the network.
+package-test: package
+	@scripts/install_packages.sh package-test
+	scripts/try_packages.sh $(BUILD)
 
 # docs/parameters.md, from the tables in the program.
 docs: configure
