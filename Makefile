@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package package-test docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -136,13 +136,20 @@ install: configure
 	@cmake --build --preset release --target kaustik
 	cmake --install $(BUILD) --prefix $(PREFIX) --component program
 
-# Debian packages in build/release: kaustik, libkaustik0, libkaustik-dev, python3-kaustik.
+# In build/release, Debian packages (kaustik, libkaustik0, libkaustik-dev, python3-kaustik) and kaustik-….tar.xz, which runs
+# where it is unpacked: docs/developer/packages.md.
 package: configure
 	@scripts/install_packages.sh package python
 	@cmake --preset release -D KAUSTIK_PYTHON=ON
 	@cmake --build --preset release --target kaustik libkaustik kaustik_package
 	cd $(BUILD) && cpack
 	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
+	scripts/portable_tarball.py $(BUILD) $(BUILD)
+
+# The same in a bare Debian 12 and a bare Debian 13. Needs root and the network.
+package-test: package
+	@scripts/install_packages.sh package-test
+	scripts/try_packages.sh $(BUILD)
 
 # The generated parts of docs/reference, from the tables in the program; then the documentation as a site, build/site:
 # python3 -m http.server --bind 127.0.0.1 --directory build/site 8000

@@ -1,4 +1,4 @@
-# `make install` and Debian packages by CPack. Component `program` is what users need; `library` is what
+# `make install`, Debian packages by CPack, and what the portable tarball is made of. Component `program` is what users need; `library` is what
 # other programs run with, `development` what they are built with; `python` is `import kaustik` for Debian's Python.
 install(TARGETS kaustik RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 # Man pages and completions, where shells of most distributions look, and for zsh those of Debian.
@@ -13,6 +13,20 @@ install(FILES ${made}/kaustik.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/ven
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kaustik COMPONENT program
         PATTERN generator EXCLUDE)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# The pages without their pictures, and scenes that they refer to; install(DIRECTORY) would leave empty folders.
+install(CODE "set(sources \"${PROJECT_SOURCE_DIR}\")
+set(target \"${CMAKE_INSTALL_DOCDIR}\")" COMPONENT program)
+install(CODE [[
+get_filename_component(target "${target}" ABSOLUTE BASE_DIR "${CMAKE_INSTALL_PREFIX}")
+file(GLOB_RECURSE pages RELATIVE "${sources}" "${sources}/docs/*.md" "${sources}/docs/*.bib" "${sources}/docs/*.xml")
+foreach(page ${pages})
+  get_filename_component(folder "${page}" DIRECTORY)
+  file(INSTALL "${sources}/${page}" DESTINATION "${target}/${folder}")
+endforeach()]] COMPONENT program)
+# In the place of libjbig, in packages that carry their libraries: scripts/carried_libraries.py.
+add_library(kaustik_no_jbig SHARED EXCLUDE_FROM_ALL cmake/portable/no_jbig.cpp)
+set_target_properties(kaustik_no_jbig PROPERTIES OUTPUT_NAME jbig SOVERSION 0 LINK_OPTIONS -nodefaultlibs
+                      LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/portable)
 if(KAUSTIK_PYTHON)
   set(dist_packages lib/python3/dist-packages/kaustik)
   install(TARGETS kaustik_python LIBRARY DESTINATION ${dist_packages} COMPONENT python)
@@ -20,6 +34,7 @@ if(KAUSTIK_PYTHON)
           FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 endif()
 set(CPACK_GENERATOR DEB)
+set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_NAME kaustik)
 set(CPACK_PACKAGE_CONTACT "The Kaustik authors")
 set(CPACK_COMPONENTS_ALL program library development)
@@ -28,6 +43,7 @@ if(KAUSTIK_PYTHON)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kaustik)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libkaustik${PROJECT_VERSION_MAJOR})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)

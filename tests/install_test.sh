@@ -24,6 +24,9 @@ check_program_alone() {
   [[ -z $library_parts ]] || fail "component program has parts of the library: $library_parts"
   "$work/program/bin/kaustik" info "$work/program/share/kaustik/scenes/cornell_spheres/cornell_spheres.xml" >/dev/null ||
     fail "the installed program cannot read the installed scene"
+  (cd "$work" && program/bin/kaustik info scenes/cornell_spheres/cornell_spheres.xml) >/dev/null ||
+    fail "the installed program does not find its scenes by scenes/…"
+  [[ -s $work/program/share/doc/kaustik/docs/comparisons.md ]] || fail "component program has no pages"
   check_manual "$work/program/share"
 }
 

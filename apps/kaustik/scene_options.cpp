@@ -3,13 +3,16 @@
 #include "kaustik/integrator/registry.h"
 #include "numbers.h"
 #include "option_values.h"
+#include "shipped_scenes.h"
 
 namespace kaustik::app {
 
 void add_scene(CLI::App& command, std::string& scene) {
-  takes_files(command.add_option("scene", scene, "Scene file (Mitsuba XML); - for standard input")
-                  ->required(),
-              scene_extensions());
+  CLI::Option* option = command.add_option(
+      "scene", scene,
+      "Scene file (Mitsuba XML), or scenes/… of the installation; - for standard input");
+  takes_files(option->required(), scene_extensions());
+  option->transform([](const std::string& path) { return scene_file(path); });
 }
 
 void add_threads(CLI::App& command, int& threads) {

@@ -1,7 +1,7 @@
-// Stands in for libjbig where a wheel carries libtiff: libjbig is under the GPL, which would then
-// be the licence of the whole wheel. Faxes compressed by JBIG (compression 34661 of TIFF) cannot be
-// read with it, and libtiff says so with the sentence below. It defines the functions that libtiff
-// calls, and touches nothing that they are given.
+// Stands in for libjbig where the wheel and the tarball carry libtiff: libjbig is under the GPL,
+// which would then be the licence of the whole. Faxes compressed by JBIG (compression 34661 of
+// TIFF) cannot be read with it, and libtiff says so with the sentence below. It defines the
+// functions that libtiff calls, and touches nothing that they are given.
 extern "C" {
 
 [[gnu::visibility("default")]] void jbg_dec_init(void*) {}

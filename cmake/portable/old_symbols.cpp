@@ -1,7 +1,8 @@
-// The module asks for no later versions of the system's libraries than the libraries do that a
-// portable wheel carries: glibc 2.34 and the libstdc++ of GCC 11. What is later of three functions
-// is how they tell of errors, which nobody asks here; their values are those of the later versions
-// to the bit. Sources of the rooms that call them get these, since the linker looks here first.
+// The program and the module for Python ask for glibc 2.34 and the libstdc++ of GCC 11, as the
+// libraries do that the tarball and the wheel carry. Three functions have later versions. These
+// differ only in how they tell of errors, and nobody asks for that here. The values are the same to
+// the bit. Sources of the rooms that call the functions get these, since the linker looks here
+// first.
 #include <condition_variable>
 #include <mutex>
 
