@@ -1,5 +1,6 @@
 #include "kit/mesh.h"
 
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -63,6 +64,12 @@ Mesh merged(const std::vector<Mesh>& parts) {
   Mesh all;
   for (const Mesh& part : parts) all.append(part);
   return all;
+}
+
+double lowest(const Mesh& mesh) {
+  double low = std::numeric_limits<double>::infinity();
+  for (const Vertex& v : mesh.vertices) low = std::min(low, v.position.z);
+  return low;
 }
 
 Mesh subdivided(Mesh mesh) {

@@ -48,6 +48,8 @@ Mesh scaled(Mesh mesh, const Vec3d& factors);
 Mesh bent(Mesh mesh, const Map3& map);
 Mesh turned_inside_out(Mesh mesh);
 Mesh merged(const std::vector<Mesh>& parts);
+/// Height of its lowest vertex, m.
+double lowest(const Mesh& mesh);
 
 /// Each triangle in four, at the middles of its edges; normals are dropped.
 Mesh subdivided(Mesh mesh);

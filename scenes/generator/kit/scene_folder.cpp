@@ -33,8 +33,13 @@ void SceneFolder::add_view(const View& view, int spp) {
   film.add(side("width", square ? "size" : "width"));
   film.add(side("height", square ? "size" : "height"));
   film.add(object("rfilter", "gaussian"));
-  Xml sensor = object("sensor", "perspective");
+  const bool has_lens = view.aperture_radius > 0;
+  Xml sensor = object("sensor", has_lens ? "thinlens" : "perspective");
   sensor.add(number("fov", view.fov));
+  if (has_lens) {
+    sensor.add(number("aperture_radius", view.aperture_radius));
+    sensor.add(number("focus_distance", (view.target - view.origin).length()));
+  }
   sensor.add(transform({look_at(view.origin, view.target)}));
   if (!view.medium.empty()) sensor.add(ref(view.medium));
   sensor.add(std::move(film));

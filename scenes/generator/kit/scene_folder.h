@@ -16,7 +16,8 @@ struct View {
   Vec3d origin, target;
   double fov = 50;  ///< degrees across the width
   int width = 800, height = 800;
-  std::string medium = {};  ///< id of the one that the camera is in; empty: none
+  std::string medium = {};     ///< id of the one that the camera is in; empty: none
+  double aperture_radius = 0;  ///< of its lens, focused on the target; 0: a pinhole
 };
 
 class SceneFolder {

@@ -13,6 +13,7 @@ std::span<const SceneMaker> scene_makers() {
       {"pool_above", "An indoor swimming pool.", make_pool_above},
       {"pool_below", "The pool from under its water.", make_pool_below},
       {"atrium", "A domed hall with a chandelier above a fountain.", make_atrium},
+      {"still_life", "Glass, metal, water and fruit on a table in the late sun.", make_still_life},
   };
   return makers;
 }

@@ -28,5 +28,6 @@ SceneFolder make_maze(const SceneOptions& options);
 SceneFolder make_pool_above(const SceneOptions& options);
 SceneFolder make_pool_below(const SceneOptions& options);
 SceneFolder make_atrium(const SceneOptions& options);
+SceneFolder make_still_life(const SceneOptions& options);
 
 }  // namespace kaustik::scenes
