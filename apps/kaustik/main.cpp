@@ -69,6 +69,7 @@ int run(int argc, char** argv) {
       "cornell.png\n"
       "Every parameter of every object: kaustik help\n\n" +
       kaustik::app::exit_code_text());
+  kaustik::app::add_example(program);
   kaustik::app::add_render(program);
   kaustik::app::add_resume(program);
   kaustik::app::add_view(program);

@@ -1,5 +1,11 @@
 #include "scene_options.h"
 
+#include <fmt/format.h>
+
+#include <cctype>
+#include <filesystem>
+
+#include "kaustik/base/error.h"
 #include "kaustik/integrator/registry.h"
 #include "numbers.h"
 #include "option_values.h"
@@ -10,6 +16,14 @@ void add_scene(CLI::App& command, std::string& scene) {
   takes_files(command.add_option("scene", scene, "Scene file (Mitsuba XML); - for standard input")
                   ->required(),
               scene_extensions());
+}
+
+void check_scene_name(const std::string& output) {
+  std::string suffix = std::filesystem::path(output).extension().string();
+  for (char& c : suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (suffix.empty() || suffix == ".xml") return;
+  throw Error(ErrorKind::input, fmt::format("'{}' is not the name of an XML file", output),
+              "scenes are written as Mitsuba 3's XML: let the name end in .xml");
 }
 
 void add_threads(CLI::App& command, int& threads) {
