@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <string>
@@ -14,6 +13,7 @@
 #include "exit_codes.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/version.h"
+#include "scene_search.h"
 #include "screen.h"
 #include "signals.h"
 #include "standard_streams.h"
@@ -30,15 +30,6 @@ void keep_memory() {
 #endif
 }
 
-/// The command that a file without one was likely meant for; "" if none.
-std::string command_for(const std::string& file) {
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".xml" || file == "-") return "render";
-  if (extension == ".kpt") return "resume";
-  if (extension == ".exr" || extension == ".hdr" || extension == ".pfm") return "tonemap";
-  return {};
-}
-
 /// CLI11 would only say that a subcommand is missing.
 void check_command(const std::string& name, const CLI::App& program) {
   std::vector<std::string> names;
@@ -46,10 +37,9 @@ void check_command(const std::string& name, const CLI::App& program) {
   if ((name.starts_with('-') && name != "-") ||
       std::find(names.begin(), names.end(), name) != names.end())
     return;
-  if (const std::string command = command_for(name); !command.empty())
+  if (const std::string command = kaustik::app::command_line_for(name); !command.empty())
     throw kaustik::Error(kaustik::ErrorKind::input, fmt::format("'{}' is no command", name),
-                         fmt::format("kaustik {} {}{}", command, name,
-                                     command == "tonemap" ? " -o PICTURE.png" : ""));
+                         command);
   throw kaustik::Error(kaustik::ErrorKind::input, fmt::format("there is no command '{}'", name),
                        kaustik::suggest(name, names));
 }

@@ -48,7 +48,7 @@ TEST_F(BadInput, MissingSceneFile) {
   expect_refused("scene.xml", "No such file", "check the name");
   const RunResult folder = run({"render", ".", "-o", "new.png"});
   EXPECT_EQ(folder.exit_code, 2) << folder.err;
-  EXPECT_TRUE(contains(folder.err, "not a regular file")) << folder.err;
+  EXPECT_TRUE(contains(folder.err, "it is a folder")) << folder.err;
 }
 
 TEST_F(BadInput, BrokenXml) {
