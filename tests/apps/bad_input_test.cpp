@@ -285,7 +285,7 @@ TEST_F(BadInput, CommandsAndImages) {
   };
   write("text.exr", "this is no image");
   write("cut.pfm", "PF\n100 100\n-1.0\nabc");
-  refused({}, "subcommand");
+  refused({}, "kaustik example");
   refused({"rendre"}, "did you mean 'render'?");
   refused({"render"}, "scene is required");
   refused({"help", "photonmpa"}, "did you mean 'photonmap'?");
