@@ -1,5 +1,5 @@
-# Writes OUTPUT, a source that holds the bytes of all files in FOLDER: cmake -D FOLDER=… -D OUTPUT=… -P embed_assets.cmake
-file(GLOB files LIST_DIRECTORIES false ${FOLDER}/*)
+# Writes OUTPUT, a source that holds the bytes of all files FOLDER/PATTERN: see kaustik_embed().
+file(GLOB files LIST_DIRECTORIES false ${FOLDER}/${PATTERN})
 list(SORT files)
 set(arrays)
 set(rows)
@@ -16,19 +16,19 @@ foreach(path ${files})
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "// Made by cmake/embed_assets.cmake.
-#include \"kaustik/view/assets.h\"
+#include \"${HEADER}\"
 
-namespace kaustik::view {
+namespace ${NAMESPACE} {
 namespace {
 
 ${arrays}
 }  // namespace
 
-const std::vector<Asset>& assets() {
-  static const std::vector<Asset> all = {
+const std::vector<${TYPE}>& ${FUNCTION}() {
+  static const std::vector<${TYPE}> all = {
 ${rows}  };
   return all;
 }
 
-}  // namespace kaustik::view
+}  // namespace ${NAMESPACE}
 ")

@@ -189,15 +189,17 @@ class Command:
 
     def __init__(self, program, name):
         self.name, self.usage, self.sentence = name, "", ""
-        self.entries = {"Positionals": [], "Options": [], "Subcommands": [], "Exit codes": []}  # (what, meaning)
+        self.entries = {"Positionals": [], "Options": [], "Exit codes": []}  # (what, meaning)
+        self.groups = {}  # of commands, each as those above
         self.after, section = [], None
         for line in output_of(program, *name.split(), "--help").rstrip().splitlines():
             if line.startswith("Usage: "):
                 self.usage = line.removeprefix("Usage: ")
-            elif line.rstrip(":") in self.entries:
-                section = line.rstrip(":")
-            elif section and line.startswith("  "):
-                self.add_entry(self.entries[section], line, is_wide=section != "Exit codes")
+            elif re.fullmatch(r"[A-Z][a-z ]+:", line):
+                title = line.rstrip(":")
+                section = self.entries[title] if title in self.entries else self.groups.setdefault(title, [])
+            elif section is not None and line.startswith("  "):
+                self.add_entry(section, line, is_wide=section is not self.entries["Exit codes"])
             elif not self.usage:
                 self.sentence = line
             else:
@@ -253,13 +255,14 @@ def option_row(what, meaning):
 def commands_block(program):
     """All commands with their options, and the exit codes."""
     general = Command(program, "")
-    lines = [general.sentence, "", "| Command | Meaning |", "|---|---|"]
-    for name, meaning in general.entries["Subcommands"]:
-        lines.append(f"| [{code(name)}](#kaustik-{name}) | {escaped(meaning)} |")
+    lines = [general.sentence]
+    for title, commands in general.groups.items():
+        lines += ["", f"| {title} | Meaning |", "|---|---|"]
+        lines += [f"| [{code(name)}](#kaustik-{name}) | {escaped(meaning)} |" for name, meaning in commands]
     lines += ["", "| Exit code | Meaning |", "|---|---|"]
     lines += [f"| {number} | {escaped(meaning)} |" for number, meaning in general.entries["Exit codes"]]
     lines += ["", "## kaustik", *command_lines(general, general)]
-    for name, _ in general.entries["Subcommands"]:
+    for name in [name for commands in general.groups.values() for name, _ in commands]:
         command = Command(program, name)
         lines += ["", f"## kaustik {name}", "", escaped(command.sentence), "", *command_lines(command, general)]
     return lines

@@ -25,6 +25,7 @@ OptionText text_of(const CLI::Option& option) {
 CommandText text_of(const CLI::App& command) {
   CommandText text;
   text.name = command.get_name();
+  text.group = command.get_group();
   text.sentence = command.get_description();
   text.footer = command.get_footer();
   for (const CLI::Option* option : command.get_options()) {

@@ -20,7 +20,8 @@ struct OptionText {
 };
 
 struct CommandText {
-  std::string name;  ///< "render"
+  std::string name;   ///< "render"
+  std::string group;  ///< "Pictures"
   std::string sentence, footer;
   std::vector<OptionText> arguments, options;
 };

@@ -22,6 +22,7 @@ void add_convert(CLI::App& program);
 void add_help(CLI::App& program);
 void add_man(CLI::App& program);
 void add_completion(CLI::App& program);
+void add_example(CLI::App& program);
 
 // What an option's text says; throw Error(input) with the option as the place.
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -31,9 +30,6 @@ struct ConvertOptions {
   std::vector<std::string> definitions;
   bool is_strict = false, force = false;
 };
-
-/// A scene is somebody's work: without --force it is not replaced.
-bool is_any_file(const std::string&) { return true; }
 
 /// Removes again what it has put where nothing was, unless all is done.
 class NewFiles {
@@ -87,21 +83,12 @@ std::vector<uint8_t> contents_of(const FileToWrite& file) {
   }
 }
 
-/// Another suffix promises another format.
-void check_suffix(const std::string& output) {
-  std::string suffix = std::filesystem::path(output).extension().string();
-  for (char& c : suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (suffix.empty() || suffix == ".xml") return;
-  throw Error(ErrorKind::input, fmt::format("'{}' is not the name of an XML file", output),
-              "scenes are written as Mitsuba 3's XML: let the name end in .xml");
-}
-
 void convert(const ConvertOptions& options) {
-  check_suffix(options.output);
+  check_scene_name(options.output);
   FileRoles roles;
   const auto writes = [&](const std::string& path) {
-    roles.writes(path, {"a file with contents", is_any_file},
-                 options.force ? Replacing::anything : Replacing::nothing, "choose another name");
+    roles.writes(path, any_file, options.force ? Replacing::anything : Replacing::nothing,
+                 "choose another name");
   };
   roles.reads_scene(options.scene);
   writes(options.output);

@@ -1,5 +1,5 @@
 #pragma once
-// Progress for programs: lines of JSON, one for each event. docs/command_line.md tells their
+// Progress for programs: lines of JSON, one for each event. docs/guides/progress.md tells their
 // fields.
 
 #include <memory>

@@ -13,7 +13,7 @@ struct ExitCode {
   std::string code;  ///< "75", "128+n"
   std::string meaning;
 };
-/// The one table of them: help, man pages and docs/command_line.md show it.
+/// The one table of them: help, man pages and docs/reference/cli.md show it.
 const std::vector<ExitCode>& exit_codes();
 /// The same in lines.
 std::string exit_code_text();

@@ -14,6 +14,9 @@ struct FileKind {
   bool (*is_one)(const std::string& path);
 };
 
+/// Of files that are somebody's work, whatever is in them: they are not replaced without --force.
+extern const FileKind any_file;
+
 /// What an output may replace.
 enum class Replacing { nothing, own_kind, anything };
 

@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands.h"
 #include "events.h"
 #include "exit_codes.h"
+#include "first_steps.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/version.h"
+#include "scene_search.h"
 #include "screen.h"
 #include "signals.h"
 #include "standard_streams.h"
@@ -30,15 +32,6 @@ void keep_memory() {
 #endif
 }
 
-/// The command that a file without one was likely meant for; "" if none.
-std::string command_for(const std::string& file) {
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".xml" || file == "-") return "render";
-  if (extension == ".kpt") return "resume";
-  if (extension == ".exr" || extension == ".hdr" || extension == ".pfm") return "tonemap";
-  return {};
-}
-
 /// CLI11 would only say that a subcommand is missing.
 void check_command(const std::string& name, const CLI::App& program) {
   std::vector<std::string> names;
@@ -46,12 +39,30 @@ void check_command(const std::string& name, const CLI::App& program) {
   if ((name.starts_with('-') && name != "-") ||
       std::find(names.begin(), names.end(), name) != names.end())
     return;
-  if (const std::string command = command_for(name); !command.empty())
+  if (const std::string command = kaustik::app::command_line_for(name); !command.empty())
     throw kaustik::Error(kaustik::ErrorKind::input, fmt::format("'{}' is no command", name),
-                         fmt::format("kaustik {} {}{}", command, name,
-                                     command == "tonemap" ? " -o PICTURE.png" : ""));
+                         command);
   throw kaustik::Error(kaustik::ErrorKind::input, fmt::format("there is no command '{}'", name),
                        kaustik::suggest(name, names));
+}
+
+/// In groups, as --help lists them.
+void add_commands(CLI::App& program) {
+  using namespace kaustik::app;
+  struct Group {
+    const char* name;
+    std::vector<void (*)(CLI::App&)> commands;
+  };
+  const Group groups[] = {{"Scenes", {add_example, add_info, add_convert}},
+                          {"Render", {add_render, add_view, add_resume, add_photons, add_learn}},
+                          {"Pictures", {add_tonemap, add_compare, add_denoise}},
+                          {"Parts", {add_merge, add_stitch}},
+                          {"Help", {add_help, add_man, add_completion}}};
+  for (const Group& group : groups)
+    for (const auto add : group.commands) {
+      add(program);
+      program.get_subcommands({}).back()->group(group.name);
+    }
 }
 
 int run(int argc, char** argv) {
@@ -65,26 +76,16 @@ int run(int argc, char** argv) {
       "Print the version"));
   program.require_subcommand(1);
   program.footer(
-      "Start with: kaustik render scenes/cornell_box/cornell_box.xml -o cornell.exr -o "
-      "cornell.png\n"
+      "Start with: kaustik example caustic\n"
       "Every parameter of every object: kaustik help\n\n" +
       kaustik::app::exit_code_text());
-  kaustik::app::add_render(program);
-  kaustik::app::add_resume(program);
-  kaustik::app::add_view(program);
-  kaustik::app::add_tonemap(program);
-  kaustik::app::add_info(program);
-  kaustik::app::add_compare(program);
-  kaustik::app::add_denoise(program);
-  kaustik::app::add_photons(program);
-  kaustik::app::add_learn(program);
-  kaustik::app::add_merge(program);
-  kaustik::app::add_stitch(program);
-  kaustik::app::add_convert(program);
-  kaustik::app::add_help(program);
-  kaustik::app::add_man(program);
-  kaustik::app::add_completion(program);
-  if (argc > 1) check_command(argv[1], program);
+  add_commands(program);
+  if (argc <= 1) {
+    // Nothing was asked for: scripts whose command got lost have to notice.
+    kaustik::app::screen().tell(kaustik::app::Level::plain, kaustik::app::first_steps(program));
+    return kaustik::app::exit_input;
+  }
+  check_command(argv[1], program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

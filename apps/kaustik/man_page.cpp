@@ -117,8 +117,9 @@ std::string man_page_of_program(const CLI::App& program) {
   std::string footer = own.footer;
   footer = footer.substr(0, footer.find(exit_code_text()));
   text += heading("DESCRIPTION") + paragraphs(footer) + heading("COMMANDS");
-  std::string pages;
+  std::string pages, group;
   for (const CommandText& command : command_texts(program)) {
+    if (command.group != group) text += fmt::format(".SS {}\n", group = command.group);
     text += fmt::format(".TP\n.B {}\n{}\n", roff(command.name), roff(command.sentence));
     pages += fmt::format("{}.BR kaustik\\-{} (1)", pages.empty() ? "" : ",\n", command.name);
   }

@@ -15,6 +15,7 @@
 #include "kaustik/scene/scene.h"
 #include "picture_output.h"
 #include "picture_watch.h"
+#include "scene_search.h"
 #include "screen.h"
 #include "signals.h"
 #include "standard_streams.h"
@@ -92,8 +93,10 @@ LoadOptions load_options(std::vector<std::pair<std::string, std::string>> defini
 }
 
 Description read_scene(const std::string& path, const LoadOptions& options) {
-  if (!is_standard_stream(path)) return load_scene(path, options);
-  return parse_scene(read_standard_input(), "standard input", "", options);
+  if (is_standard_stream(path))
+    return parse_scene(read_standard_input(), "standard input", "", options);
+  check_scene_file(path);
+  return load_scene(path, options);
 }
 
 Messages terminal_messages() { return {note, warn}; }

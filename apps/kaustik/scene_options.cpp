@@ -1,9 +1,15 @@
 #include "scene_options.h"
 
+#include <fmt/format.h>
+
+#include <cctype>
+#include <filesystem>
+
+#include "kaustik/base/error.h"
 #include "kaustik/integrator/registry.h"
 #include "numbers.h"
 #include "option_values.h"
-#include "shipped_scenes.h"
+#include "program_files.h"
 
 namespace kaustik::app {
 
@@ -13,6 +19,14 @@ void add_scene(CLI::App& command, std::string& scene) {
       "Scene file (Mitsuba XML), or scenes/… of the installation; - for standard input");
   takes_files(option->required(), scene_extensions());
   option->transform([](const std::string& path) { return scene_file(path); });
+}
+
+void check_scene_name(const std::string& output) {
+  std::string suffix = std::filesystem::path(output).extension().string();
+  for (char& c : suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (suffix.empty() || suffix == ".xml") return;
+  throw Error(ErrorKind::input, fmt::format("'{}' is not the name of an XML file", output),
+              "scenes are written as Mitsuba 3's XML: let the name end in .xml");
 }
 
 void add_threads(CLI::App& command, int& threads) {

@@ -7,6 +7,9 @@ namespace kaustik::app {
 
 // Options of all commands that read a scene.
 
+/// Scenes are written in one format: another suffix would promise another one. Throws Error(input).
+void check_scene_name(const std::string& output);
+
 /// The scene file itself, the first argument.
 void add_scene(CLI::App& command, std::string& scene);
 /// --threads; 0: all.

@@ -42,8 +42,8 @@ void stitch(const StitchOptions& options) {
 }  // namespace
 
 void add_stitch(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
-      "stitch", "Put a picture together from EXR files that were rendered as parts of it.");
+  CLI::App* command =
+      program.add_subcommand("stitch", "Put a picture together from EXR files of its parts.");
   command->footer(
       "Parts are rendered by the film's crop window: kaustik render SCENE --set "
       "film.crop_offset_y=0 --set film.crop_height=540 -o top.exr\n"

@@ -1,5 +1,5 @@
 #pragma once
-// Kaustik in other programs: docs/embedding.md. These headers include the standard library only.
+// Kaustik in other programs: docs/guides/cpp.md. These headers include the standard library only.
 
 #include "kaustik/error.h"
 #include "kaustik/estimate.h"

@@ -1,4 +1,4 @@
-"""A gold ring on a table in the sun: the light that it throws together is a caustic. docs/python.md explains it.
+"""A gold ring on a table in the sun: the light that it throws together is a caustic. docs/guides/python.md explains it.
 
 Usage: first_caustic.py [PICTURE]
 """

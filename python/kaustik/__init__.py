@@ -5,7 +5,7 @@
     >>> picture = kaustik.render(scene, time=10)
     >>> picture.write("ring.png")
 
-docs/python.md is the guide.
+docs/guides/python.md is the guide.
 """
 
 from ._arrays import Buffer

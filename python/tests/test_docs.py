@@ -1,4 +1,4 @@
-"""The code of docs/python.md runs as it stands, on small pictures; numbers are not compared."""
+"""The code of docs/guides/python*.md runs as it stands, on small pictures; numbers are not compared."""
 
 import json
 import pathlib
@@ -9,7 +9,8 @@ import pytest
 import kaustik
 from kaustik import _session
 
-page = pathlib.Path(__file__).parent.parent.parent / "docs" / "python.md"
+docs = pathlib.Path(__file__).parent.parent.parent / "docs"
+pages = sorted((docs / "guides").glob("python*.md"))
 
 
 def shortened(monkeypatch):
@@ -34,13 +35,13 @@ def shortened(monkeypatch):
 
 
 def test_docs(monkeypatch, tmp_path, capsys):
-    text = page.read_text(encoding="utf-8")
-    blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    blocks = [(page, block) for page in pages
+              for block in re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)]
     assert len(blocks) >= 6
     shortened(monkeypatch)
     monkeypatch.chdir(tmp_path)
     names = {}
-    for block in blocks:
+    for page, block in blocks:
         # Pixels that are there in small pictures, too.
         block = block.replace("(312, 90, 20, 14)", "(12, 9, 2, 4)").replace("pixel(320, 97)", "pixel(12, 9)")
         exec(compile(block, str(page), "exec"), names)
@@ -50,13 +51,14 @@ def test_docs(monkeypatch, tmp_path, capsys):
     assert not any("closed" in warning for warning in names["with_lens"].warnings)
 
 
-def test_links():
+@pytest.mark.parametrize("page", pages, ids=lambda page: page.stem)
+def test_links(page):
     text = page.read_text(encoding="utf-8")
     for target in re.findall(r"\]\(([^)#]+)\)", text):
         assert (page.parent / target).exists(), target
 
 
-notebooks = sorted((page.parent / "notebooks").glob("*.ipynb"))
+notebooks = sorted((docs / "notebooks").glob("*.ipynb"))
 
 
 @pytest.mark.parametrize("path", notebooks, ids=lambda path: path.stem)
@@ -69,7 +71,7 @@ def test_notebooks_were_run(path):
         assert not any(output["output_type"] == "error" for output in cell["outputs"])
     assert sum("cover" in cell["metadata"].get("tags", []) for cell in cells) == 1
     assert path.with_suffix(".png").read_bytes().startswith(b"\x89PNG")
-    assert f"notebooks/{path.name}" in page.read_text(encoding="utf-8")
+    assert any(f"notebooks/{path.name}" in page.read_text(encoding="utf-8") for page in pages)
 
 
 def test_there_are_notebooks():

@@ -20,11 +20,12 @@ class Manual : public ProgramTest {
   std::vector<std::string> commands() const {
     const std::string help = run_well({"--help"}).out;
     std::vector<std::string> names;
-    const std::string list = help.substr(help.find("Subcommands:"));
+    const size_t begin = help.find("\nScenes:");
+    const std::string list = help.substr(begin, help.find("\nStart with:") - begin);
     const std::regex row("\n  ([a-z]+)  ");
     for (std::sregex_iterator at(list.begin(), list.end(), row), end; at != end; ++at)
       names.push_back((*at)[1]);
-    EXPECT_GE(names.size(), 14u);
+    EXPECT_GE(names.size(), 16u);
     return names;
   }
   /// Long options of a command, by --help.
@@ -101,6 +102,7 @@ TEST_F(Manual, PagesHaveEveryOption) {
           "");
     }
   }
+  EXPECT_TRUE(contains(overview, ".SS Pictures\n.TP\n.B tonemap\n")) << overview;
   const RunResult wrong = run({"man", "rendr"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_TRUE(contains(wrong.err, "did you mean 'render'")) << wrong.err;
@@ -132,6 +134,7 @@ TEST_F(Manual, CompletionsOfBashComplete) {
   EXPECT_EQ(completed({"kaustik", "render", "--time", ""}), "\n");
   EXPECT_EQ(completed({"kaustik", "help", "rectan"}), "rectangle\n");
   EXPECT_EQ(completed({"kaustik", "completion", "z"}), "zsh\n");
+  EXPECT_EQ(completed({"kaustik", "example", "j"}), "jewel\n");
 }
 
 TEST_F(Manual, CompletionsOfOtherShellsHaveEveryOption) {

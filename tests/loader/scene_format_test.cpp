@@ -118,6 +118,17 @@ TEST_F(SceneFormats, UnknownFilesAreToldWhatCanBeRead) {
   EXPECT_NE(problem_of(folder_.path("missing")).message.find("No such file"), std::string::npos);
 }
 
+TEST_F(SceneFormats, ScenesAreKnownByNameOrByContents) {
+  for (const char* name : {"a.xml", "A.XML", "folder.d/a.xml.gz", "a.Xml.GZ"})
+    EXPECT_TRUE(has_scene_name(name)) << name;
+  for (const char* name : {"a.exr", "xml", "a.xml.zip", "a.xml/b", ""})
+    EXPECT_FALSE(has_scene_name(name)) << name;
+  EXPECT_TRUE(is_scene_file(write("a", std::string("<scene version=\"3.0.0\"/>"))));
+  EXPECT_TRUE(is_scene_file(write("a.xml", std::string("?"))));
+  EXPECT_FALSE(is_scene_file(write("a.exr", std::string("?"))));
+  EXPECT_THROW(is_scene_file(folder_.path("missing.xml")), Error);
+}
+
 TEST_F(SceneFormats, TheTableIsSearchedByContentsThenByName) {
   const auto row = [](const char* name, std::string_view extension, auto recognises) {
     return SceneFormat{name, {extension}, recognises, nullptr, nullptr};

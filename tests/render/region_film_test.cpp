@@ -179,7 +179,7 @@ TEST(Regions, IntervalsHoldTheTruthAcrossBorders) {
     expect_coverage(250, 0.908, 0.992);
 }
 
-/// As of pictures: docs/errors.md.
+/// As of pictures: docs/theory/errors.md.
 TEST(Regions, IntervalsHoldTheTruthAcrossBordersLong) { expect_coverage(3000, 0.93, 0.97); }
 
 TEST(Regions, ThatCoverThePictureMakeItsErrorKnown) {

@@ -1,4 +1,4 @@
-// The pictures of docs/view.md, of the program itself in Chromium: node test/docs_pictures.mjs [FOLDER [SECONDS]]
+// The pictures of docs/guides/live_view.md, of the program itself in Chromium: node test/docs_pictures.mjs [FOLDER [SECONDS]]
 // KAUSTIK names the program. Each scene renders for so many seconds at rest, 30 unless told.
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';

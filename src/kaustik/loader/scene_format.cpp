@@ -39,7 +39,33 @@ std::string list_of(const std::vector<SceneFormat>& formats) {
   return list;
 }
 
+/// Null: none.
+const SceneFormat* find_format(const std::vector<SceneFormat>& formats, std::string_view head,
+                               const std::string& path) {
+  const std::string name = name_of(path);
+  const SceneFormat *by_contents = nullptr, *by_name = nullptr;
+  for (const SceneFormat& format : formats) {
+    const bool is_named_so = has_extension(format, name);
+    if (is_named_so && !by_name) by_name = &format;
+    // Of several that recognise it, the one whose name it has.
+    if (format.recognises(head) && (!by_contents || is_named_so)) by_contents = &format;
+  }
+  return by_contents ? by_contents : by_name;
+}
+
 std::string text_of(const std::vector<uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+
+/// Unpacked.
+std::string head_of(const std::string& path) {
+  std::vector<uint8_t> start;
+  try {
+    start = read_file_start(path, head_bytes);
+  } catch (const Error& error) {
+    const Problem& problem = error.problems().front();
+    throw Error(error.kind(), problem.message, problem.remedy, place_in(path));
+  }
+  return text_of(unpacked_start(start, head_bytes));
+}
 
 }  // namespace
 
@@ -51,30 +77,24 @@ const std::vector<SceneFormat>& scene_formats() {
 
 const SceneFormat& choose_format(const std::vector<SceneFormat>& formats, std::string_view head,
                                  const std::string& path) {
-  const std::string name = name_of(path);
-  const SceneFormat *by_contents = nullptr, *by_name = nullptr;
-  for (const SceneFormat& format : formats) {
-    const bool is_named_so = has_extension(format, name);
-    if (is_named_so && !by_name) by_name = &format;
-    // Of several that recognise it, the one whose name it has.
-    if (format.recognises(head) && (!by_contents || is_named_so)) by_contents = &format;
-  }
-  if (by_contents) return *by_contents;
-  if (by_name) return *by_name;
+  if (const SceneFormat* found = find_format(formats, head, path)) return *found;
   throw Error(ErrorKind::input, "this is no scene in a format that Kaustik knows",
               fmt::format("give one of: {}", list_of(formats)), place_in(path));
 }
 
+bool has_scene_name(const std::string& path) {
+  const std::string name = name_of(path);
+  const std::vector<SceneFormat>& formats = scene_formats();
+  return std::any_of(formats.begin(), formats.end(),
+                     [&](const SceneFormat& format) { return has_extension(format, name); });
+}
+
+bool is_scene_file(const std::string& path) {
+  return find_format(scene_formats(), head_of(path), path) != nullptr;
+}
+
 Description load_scene(const std::string& path, const LoadOptions& options) {
-  std::vector<uint8_t> start;
-  try {
-    start = read_file_start(path, head_bytes);
-  } catch (const Error& error) {
-    const Problem& problem = error.problems().front();
-    throw Error(error.kind(), problem.message, problem.remedy, place_in(path));
-  }
-  const std::string head = text_of(unpacked_start(start, head_bytes));
-  return choose_format(scene_formats(), head, path).load(path, options);
+  return choose_format(scene_formats(), head_of(path), path).load(path, options);
 }
 
 Description parse_scene(std::string text, std::string name_for_messages,

@@ -34,6 +34,12 @@ const std::vector<SceneFormat>& scene_formats();
 const SceneFormat& choose_format(const std::vector<SceneFormat>& formats, std::string_view head,
                                  const std::string& path);
 
+/// Whether the file is called as scenes are: "scene.xml", "scene.xml.gz".
+bool has_scene_name(const std::string& path);
+
+/// Whether choose_format() finds one for the file. Throws Error(input) if it can't be read.
+bool is_scene_file(const std::string& path);
+
 /// Reads a scene file of any of the formats, packed by gzip or not; its contents say what it is
 /// rather than its name. Throws Error(input) if it is none, with a list of those that can be read.
 Description load_scene(const std::string& path, const LoadOptions& options = {});

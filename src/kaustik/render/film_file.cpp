@@ -1,4 +1,4 @@
-// A film as part of a checkpoint: docs/checkpoints.md.
+// A film as part of a checkpoint: docs/reference/checkpoint_file.md.
 #include <algorithm>
 
 #include "kaustik/base/binary_file.h"

@@ -1,4 +1,5 @@
-// docs/checkpoints.md describes the file; what is put and got here is that, in its order.
+// docs/reference/checkpoint_file.md describes the file; what is put and got here is that, in its
+// order.
 #include "kaustik/render/lessons_file.h"
 
 #include <algorithm>

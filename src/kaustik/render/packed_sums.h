@@ -7,8 +7,8 @@
 
 namespace kaustik {
 
-/// Writes exact sums without the bytes that say nothing, as docs/checkpoints.md describes it: most
-/// have 5 to 8 of their 16, zeros none.
+/// Writes exact sums without the bytes that say nothing, as docs/reference/checkpoint_file.md
+/// describes it: most have 5 to 8 of their 16, zeros none.
 void put_sums(BinaryWriter& writer, std::span<const Fixed> sums);
 
 /// How many bytes that takes.

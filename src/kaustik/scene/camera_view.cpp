@@ -53,16 +53,17 @@ ClipRange::ClipRange(const Arguments& arguments) {
 }
 
 std::vector<Parameter> clip_parameters() {
-  return {optional(number_parameter("near_clip", 0,
-                                    "What is nearer is cut off, see docs/cameras.md; "
-                                    "nothing if absent.")
-                       .range(0, 1e12)
-                       .in("m")),
-          optional(number_parameter("far_clip", 1e4,
-                                    "What is farther is cut off, see docs/cameras.md; "
-                                    "nothing if absent.")
-                       .range(0, 1e12)
-                       .in("m"))};
+  return {
+      optional(number_parameter("near_clip", 0,
+                                "What is nearer is cut off, see docs/reference/sensor/index.md; "
+                                "nothing if absent.")
+                   .range(0, 1e12)
+                   .in("m")),
+      optional(number_parameter("far_clip", 1e4,
+                                "What is farther is cut off, see docs/reference/sensor/index.md; "
+                                "nothing if absent.")
+                   .range(0, 1e12)
+                   .in("m"))};
 }
 
 StraightView::StraightView(const CameraInputs& inputs)

@@ -15,8 +15,8 @@ std::string random_token();
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
 /// Who may ask for what: browsers run the pages of strangers, which may send requests to this
-/// machine, too (docs/view.md). Every request passes check_sender(); all but those for the page
-/// itself check_session().
+/// machine, too (docs/guides/live_view.md). Every request passes check_sender(); all but those for
+/// the page itself check_session().
 class Access {
  public:
   /// `address`: that the server listens to, as text; `port` tells the cookies of several servers of

@@ -19,7 +19,7 @@ Json parse_request_json(std::string_view text) {
     json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
       if (depth > deepest_json)
         throw RequestError(400, fmt::format("JSON is nested more than {} deep", deepest_json),
-                           "send a command as docs/view.md tells");
+                           "send a command as docs/reference/view_requests.md tells");
       return true;
     });
   } catch (const nlohmann::json::exception& error) {

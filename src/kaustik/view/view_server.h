@@ -23,7 +23,7 @@ struct ViewSettings {
 };
 
 /// Renders a scene for those who watch and change it in browsers: the page, and behind it an Engine
-/// over HTTP (docs/view.md). Nothing else is served, and no file is read for who asks.
+/// over HTTP (docs/guides/live_view.md). Nothing else is served, and no file is read for who asks.
 class ViewServer {
  public:
   /// Begins at once. Messages come from other threads. Throws Error: for an address or port that

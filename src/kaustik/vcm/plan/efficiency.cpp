@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<double, 8> chances{1, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, double(least_survival)};
 /// Glossy lobes choose among the first of these. Where merging finds what they would, it leaves
 /// blotches, and single vertices that a pilot mostly does not happen upon: see
-/// docs/integrators/auto.md.
+/// docs/theory/plans.md.
 constexpr size_t glossy_chances = 3;
 constexpr std::array<int, 5> light_counts{1, 2, 4, 8, PixelPlan::most_light_samples};
 /// Times as much as samples whose variance is their mean square, even samples count at most.
