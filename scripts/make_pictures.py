@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""Makes docs/scenes.md: a picture of every scene that ships, by the default method, with its command, time and error; and
-strips that show path tracing and the default method after the same time.
+"""Makes docs/scenes.md: a picture of every scene that ships, by the default method, with its command, time and error.
 
-Usage: scripts/make_pictures.py [--program build/release/kaustik] [--only SCENE ...] [--strips]
+Usage: scripts/make_pictures.py [--program build/release/kaustik] [--only SCENE ...]
 
 Facts of a picture are kept beside it, so that those of a few scenes can be made anew: docs/pictures/scenes/made.json.
 Minutes for each picture: no other work should run meanwhile.
@@ -15,15 +14,15 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "docs/pictures/scenes"
 PAGE = ROOT / "docs/scenes.md"
 
-# name: (file, size options, time, what it shows)
 SQUARE, WIDE = "-D size=1280", "-D width=1280 -D height=960"
+# Of each: options of the size, time, what it shows.
 SCENES = {
+    "still_life": ("-D width=1600 -D height=900", "15m", "glass, water, wine, gold, brass and fruit in the late sun"),
     "atrium": (SQUARE, "10m", "72 crystals above a fountain"),
     "pool_below": (SQUARE, "10m", "caustics through real waves"),
     "pool_above": (SQUARE, "10m", "lamps under bump-mapped water"),
@@ -36,8 +35,6 @@ SCENES = {
     "cornell_box": (SQUARE, "2m", "the box as it was measured"),
     "cornell_spheres": (SQUARE, "5m", "mirror and glass in the box"),
 }
-STRIPS = {"museum": "-D size=640", "metal_ring": "-D size=640", "pool_below": "-D size=640"}
-STRIP_TIME = "20s"
 
 
 def run(program, *arguments):
@@ -57,24 +54,10 @@ def facts_of(log):
 
 def make_picture(program, name, made):
     options, time, _ = SCENES[name]
-    scene = f"scenes/{name}/{name}.xml"
-    command = ["render", scene, *options.split(), "--time", time, "-o", f"{name}.jpg"]
+    command = ["render", f"scenes/{name}/{name}.xml", *options.split(), "--time", time, "-o", f"{name}.jpg"]
     arguments = command[:-1] + [str(PICTURES / f"{name}.jpg"), "--progress", "plain"]
     made[name] = {"command": "kaustik " + " ".join(command), "time": time, "cores": os.cpu_count(),
                   **facts_of(run(program, *arguments))}
-
-
-def make_strip(program, name, made):
-    """The picture by `path` with the exposure that the other one has got."""
-    scene, options = f"scenes/{name}/{name}.xml", STRIPS[name].split()
-    with tempfile.TemporaryDirectory() as work:
-        for method in ("path", "auto"):
-            picture = f"{work}/{method}.exr"
-            log = run(program, "render", scene, *options, "--integrator", method, "--time", STRIP_TIME, "-o", picture,
-                      "--progress", "plain")
-            made.setdefault("strips", {}).setdefault(name, {})[method] = facts_of(log)
-        run(program, "tonemap", f"{work}/auto.exr", f"{work}/path.exr", "--operator", "reinhard",
-            "-o", str(PICTURES / f"{name}_auto.jpg"), "-o", str(PICTURES / f"{name}_path.jpg"))
 
 
 def said_of(facts):
@@ -92,15 +75,6 @@ def page(made):
             lines += [f"## {name}", "", f"![{name}: {shows}](pictures/scenes/{name}.jpg)", "",
                       f"[`{name}`](../scenes/{name}): {shows}. {said_of(made[name])}.", "",
                       "```sh", made[name]["command"], "```", ""]
-    if made.get("strips"):
-        lines += ["## Beside path tracing", "",
-                  f"The same scene after {STRIP_TIME} of path tracing and of `auto`, at 640 × 640 pixels.", "",
-                  "| | `path` | `auto` |", "|---|---|---|"]
-        for name, by in made["strips"].items():
-            cells = [f"![{name} by {method}](pictures/scenes/{name}_{method}.jpg)<br>error of the pixels "
-                     f"{by[method]['pixels'] or 'unknown'}" for method in ("path", "auto")]
-            lines.append(f"| {name} | {cells[0]} | {cells[1]} |")
-        lines.append("")
     return "\n".join(lines)
 
 
@@ -108,17 +82,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/kaustik", help="[%(default)s]")
     parser.add_argument("--only", nargs="+", choices=list(SCENES), metavar="SCENE", help="make these pictures alone")
-    parser.add_argument("--strips", action="store_true", help="make the strips alone")
     arguments = parser.parse_args()
+    program = arguments.program.resolve()
+    if not program.is_file():
+        sys.exit(f"there is no program {program}\n  remedy: build it (make build), or name another: --program")
     PICTURES.mkdir(parents=True, exist_ok=True)
     facts = PICTURES / "made.json"
     made = json.loads(facts.read_text()) if facts.exists() else {}
-    program = str(arguments.program.resolve())
-    jobs = [] if arguments.strips else [(make_picture, name) for name in arguments.only or SCENES]
-    if not arguments.only:
-        jobs += [(make_strip, name) for name in STRIPS]
-    for make, name in jobs:
-        make(program, name, made)
+    for name in arguments.only or SCENES:
+        make_picture(program, name, made)
         print(f"{name}: made", flush=True)
         facts.write_text(json.dumps(made, indent=1, ensure_ascii=False) + "\n")
         PAGE.write_text(page(made))

@@ -328,6 +328,8 @@ def main():
     parser.add_argument("program", help="kaustik")
     parser.add_argument("--check", action="store_true", help="write nothing, exit with 1 if a page differs")
     arguments = parser.parse_args()
+    if not pathlib.Path(arguments.program).is_file():
+        sys.exit(f"there is no program {arguments.program}\n  remedy: build it: make build")
     families = families_of(arguments.program)
     if unknown := [family for family in families if family not in FAMILIES]:
         sys.exit(f"reference_pages: FAMILIES in this script lacks {', '.join(unknown)}")
