@@ -75,6 +75,16 @@ inline void expect_problem(const std::vector<Problem>& problems, const std::stri
   EXPECT_NE(problem.remedy.find(remedy), std::string::npos) << problem.remedy;
 }
 
+/// The only warning of a scene, which is an error where it is read strictly.
+inline std::string lenient_warning(const std::string& text) {
+  LoadOptions strict;
+  strict.is_strict = true;
+  EXPECT_FALSE(problems_in(text, strict).empty());
+  const Description description = parse(text);
+  EXPECT_EQ(description.warnings.size(), 1u);
+  return description.warnings.empty() ? "" : description.warnings[0];
+}
+
 /// A folder that is removed in the end.
 class TemporaryFolder {
  public:
