@@ -101,7 +101,7 @@ comparisons: configure
 
 # References that the scenes are compared with, hours; SCENES="atrium museum" makes those, anew.
 references: configure
-	@cmake --build --preset release --target kaustik add_images_tool
+	@cmake --build --preset release --target kaustik add_images_tool bench_peers
 	benchmarks/make_references.sh $(subst $(comma), ,$(SCENES))
 
 # `import kaustik` in .venv, its tests, and a picture by it: docs/guides/python.md. PYTHON=… for another one than Debian's.

@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md", "tests/**/*.md")
 # Written by commands: docs/developer/benchmarks.md says by which.
 RESULT_PAGES = {"docs/comparisons.md", "docs/ablation.md", "docs/sensitivity.md", "docs/gallery.md", "docs/thesis/results.md",
-                "docs/thesis/walkthrough.md"}
+                "docs/thesis/walkthrough.md", "docs/scenes.md"}
 
 FENCE = re.compile(r"^[ >]*(`{3,}|~{3,})")
 CODE = re.compile(r"(?<!`)(`+)(?!`)(.+?)(?<!`)\1(?!`)", re.DOTALL)

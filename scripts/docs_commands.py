@@ -90,8 +90,8 @@ def limited(value, most):
 
 
 def shortened_time(value):
-    match = re.fullmatch(r"(\d+(\.\d+)?)([smh]|min)?", value)
-    return f"{MOST_SECONDS}s" if match and float(match[1]) > 0 else value
+    is_time = re.fullmatch(r"\d+(\.\d+)?|(\d+(\.\d+)?(h|min|m|s))+", value)
+    return f"{MOST_SECONDS}s" if is_time and re.search("[1-9]", value) else value
 
 
 def shortened(arguments):
@@ -129,7 +129,7 @@ def shortened(arguments):
     if "--spp" in result:
         at = result.index("--spp") + 1
         result[at] = limited(result[at], passes)
-    elif not is_limited or "--passes" in result:
+    elif not is_limited or ("--passes" in result and command != "resume"):
         result += ["--spp", str(passes)]
     return result if is_limited or command == "resume" else result + ["--passes", "1"]
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes docs/scenes.md: a picture of every scene that ships, by the default method, with its command, time and error.
+"""Makes docs/scenes.md: a picture of every scene that ships, by the default method and denoised, with its command, time
+and error.
 
 Usage: scripts/make_pictures.py [--program build/release/kaustik] [--only SCENE ...]
 
@@ -20,20 +21,20 @@ PICTURES = ROOT / "docs/pictures/scenes"
 PAGE = ROOT / "docs/scenes.md"
 
 SQUARE, WIDE = "-D size=1280", "-D width=1280 -D height=960"
-# Of each: options of the size, time, what it shows.
+# Of each: options of the size, time, what it shows. README.md shows some.
 SCENES = {
-    "still_life": ("-D width=1600 -D height=900", "15m", "glass, water, wine, gold, brass and fruit in the late sun"),
-    "atrium": (SQUARE, "10m", "72 crystals above a fountain"),
-    "pool_below": (SQUARE, "10m", "caustics through real waves"),
-    "pool_above": (SQUARE, "10m", "lamps under bump-mapped water"),
-    "museum": (SQUARE, "10m", "evening sun, lamps on exhibits"),
-    "gallery_1": (WIDE, "10m", "a room lit through lampshades"),
-    "gallery_2": (WIDE, "10m", "marble and lampshades"),
-    "maze": (SQUARE, "5m", "lamps in its ways"),
-    "point_spotlight": (SQUARE, "5m", "one lamp on a red screen"),
-    "metal_ring": (SQUARE, "5m", "gold, a small lamp, the cardioid inside"),
+    "still_life": ("-D width=1600 -D height=900", "8m", "glass, water, wine, gold, brass and fruit in the late sun"),
+    "atrium": (SQUARE, "6m", "72 crystals above a fountain"),
+    "pool_below": (SQUARE, "6m", "caustics through real waves"),
+    "pool_above": (SQUARE, "6m", "lamps under bump-mapped water"),
+    "museum": (SQUARE, "5m", "evening sun, lamps on exhibits"),
+    "gallery_1": (WIDE, "5m", "a room lit through lampshades"),
+    "gallery_2": (WIDE, "5m", "marble and lampshades"),
+    "maze": (SQUARE, "3m", "lamps in its ways"),
+    "point_spotlight": (SQUARE, "3m", "one lamp on a red screen"),
+    "metal_ring": (SQUARE, "3m", "gold, a small lamp, the cardioid inside"),
     "cornell_box": (SQUARE, "2m", "the box as it was measured"),
-    "cornell_spheres": (SQUARE, "5m", "mirror and glass in the box"),
+    "cornell_spheres": (SQUARE, "3m", "mirror and glass in the box"),
 }
 
 
@@ -54,7 +55,7 @@ def facts_of(log):
 
 def make_picture(program, name, made):
     options, time, _ = SCENES[name]
-    command = ["render", f"scenes/{name}/{name}.xml", *options.split(), "--time", time, "-o", f"{name}.jpg"]
+    command = ["render", f"scenes/{name}/{name}.xml", *options.split(), "--time", time, "--denoise", "-o", f"{name}.jpg"]
     arguments = command[:-1] + [str(PICTURES / f"{name}.jpg"), "--progress", "plain"]
     made[name] = {"command": "kaustik " + " ".join(command), "time": time, "cores": os.cpu_count(),
                   **facts_of(run(program, *arguments))}
@@ -68,8 +69,9 @@ def said_of(facts):
 
 def page(made):
     lines = ["# Scenes", "",
-             "Every scene that ships, by the default method `auto`, made by `scripts/make_pictures.py`. Below each picture stand",
-             "its command, the time and the standard error of its pixels (root mean square), as the program prints it.", ""]
+             "Every scene that ships, by the default method `auto`, denoised, made by `scripts/make_pictures.py`. Below each",
+             "picture stand its command, the time, and the standard error of its pixels (root mean square) before denoising, as",
+             "the program prints it. [Comparisons](comparisons.md) shows `auto` beside other methods at equal time.", ""]
     for name, (_, _, shows) in SCENES.items():
         if name in made:
             lines += [f"## {name}", "", f"![{name}: {shows}](pictures/scenes/{name}.jpg)", "",

@@ -1,6 +1,6 @@
 #include "kaustik/integrator/registry.h"
-// Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship with each
-// of them for the same time on the same threads, start-up excluded, and prints the errors against
+// Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship, and three
+// of them as plain rooms (plain_room.h, Cycles alone), with each of them for the same time on the same threads, start-up excluded, and prints the errors against
 // the stored references, one line of JSON per pair, which it also appends to a results file, then a
 // table; comparisons_page makes a page of the file. Exit status 1: a bar is not kept, or cannot be
 // told. The peers get the scene as Kaustik has loaded it. Cycles' picture has to have our mean;
@@ -8,13 +8,17 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <fstream>
 #include <thread>
 
 #include "benchmarks/comparisons/measurement.h"
 #include "benchmarks/comparisons/peer_result.h"
 #include "benchmarks/comparisons/snapshots.h"
 #include "benchmarks/peers/cycles.h"
+#include "benchmarks/peers/plain_room.h"
 #include "benchmarks/peers/povray.h"
+#include "kaustik/loader/mitsuba_writer.h"
+#include "kaustik/scene/type_tables.h"
 
 namespace kaustik::bench {
 namespace {
@@ -23,11 +27,20 @@ struct PeerBench {
   const char* scene;
   double bar;  ///< how many times less than Cycles' our error has to be
   double aim;  ///< and should be
+  bool is_plain_room() const { return std::string_view(scene).starts_with(plain_prefix); }
+  Description description() const {
+    if (!is_plain_room()) return load_shipped(scene);
+    return plain_room(load_shipped(scene + plain_prefix.size()));
+  }
+  static constexpr std::string_view plain_prefix = "plain_";
 };
 
 constexpr std::array peer_benches{PeerBench{"cornell_box", 2, 3},
                                   PeerBench{"cornell_spheres", 5, 5},
-                                  PeerBench{"metal_ring", 50, 50}};
+                                  PeerBench{"metal_ring", 50, 50},
+                                  PeerBench{"plain_museum", 5, 5},
+                                  PeerBench{"plain_gallery_1", 5, 5},
+                                  PeerBench{"plain_atrium", 5, 5}};
 /// Cycles' mean may differ from ours by this; otherwise it may not be the same scene.
 constexpr double mean_tolerance = 0.02;
 
@@ -39,6 +52,7 @@ struct Options {
   uint64_t seed = 1;
   std::string references;  ///< a folder whose references go before the stored ones
   std::string results = "out/bench_peers.jsonl";
+  std::string folder;  ///< where plain rooms are written to, instead of being rendered; "": nowhere
 };
 
 std::string default_integrator() {
@@ -54,7 +68,7 @@ class PeerComparison {
       : bench_(bench),
         options_(options),
         reference_(reference),
-        description_(load_shipped(bench.scene)) {
+        description_(bench.description()) {
     use_peer_filter(description_);
     override_property(description_, fmt::format("film.width={}", reference.width()));
     override_property(description_, fmt::format("film.height={}", reference.height()));
@@ -154,7 +168,8 @@ bool has_peer(const Options& options, const std::string& name, const std::string
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--scenes", options.scenes,
-                 "Of cornell_box, cornell_spheres, metal_ring [all of them]")
+                 "Of cornell_box, cornell_spheres, metal_ring, plain_museum, plain_gallery_1, "
+                 "plain_atrium [all of them]")
       ->delimiter(',');
   app.add_option("--peers", options.peers, "Of cycles, povray")
       ->delimiter(',')
@@ -170,6 +185,16 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::ExistingDirectory);
   app.add_option("--results", options.results, "File that results are appended to")
       ->capture_default_str();
+  app.add_option("--write", options.folder,
+                 "Only write the plain rooms, as plain_NAME.xml into this folder")
+      ->check(CLI::ExistingDirectory);
+}
+
+void write_plain_rooms(const Options& options) {
+  for (const PeerBench& bench : peer_benches)
+    if (bench.is_plain_room() && wants(options.scenes, bench.scene))
+      std::ofstream(fmt::format("{}/{}.xml", options.folder, bench.scene))
+          << mitsuba_xml(bench.description(), scene_types(), options.folder);
 }
 
 int run_all(int argc, char** argv) {
@@ -179,6 +204,10 @@ int run_all(int argc, char** argv) {
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
   if (options.threads == 0) options.threads = int(std::thread::hardware_concurrency());
+  if (!options.folder.empty()) {
+    write_plain_rooms(options);
+    return 0;
+  }
   const bool cycles = has_peer(options, "cycles", "blender");
   const bool povray = has_peer(options, "povray", "povray");
   std::vector<PeerResult> results;
@@ -188,7 +217,7 @@ int run_all(int argc, char** argv) {
     if (!reference) continue;
     const PeerComparison comparison(bench, options, *reference);
     if (cycles) keep(options, comparison.with_cycles(), results);
-    if (povray) keep(options, comparison.with_povray(), results);
+    if (povray && !bench.is_plain_room()) keep(options, comparison.with_povray(), results);
   }
   fmt::print("\n{}", peer_result_table(results));
   const bool cycles_is_missing = wants(options.peers, "cycles") && !cycles;
