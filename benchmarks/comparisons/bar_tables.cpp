@@ -1,5 +1,6 @@
 // The tables that tell what becomes of bars.
 #include <algorithm>
+#include <map>
 
 #include "benchmarks/comparisons/bench_scene.h"
 #include "benchmarks/comparisons/table_cells.h"
@@ -9,43 +10,30 @@
 namespace kaustik::bench {
 namespace {
 
-/// Of the headline's error over the least of four, on each scene that ships and on average over
-/// at least so many.
-constexpr double scene_bar = 1.3, mean_bar = 1.1;
+/// Of the headline's error over the least of all others', on each scene that ships and on average
+/// over at least so many.
+constexpr double scene_bar = 1.15, mean_bar = 1.0;
 constexpr int least_scenes = 6;
-
-const std::vector<std::string> four{"path", "bdpt", "ppm", "vcm"};
+/// Other methods that have to be measured on a scene; their least error may be compared with then.
+constexpr int least_others = 4;
 
 struct Best {
   std::string name;
   double relmse = 0;
 };
 
-/// Of those integrators; nothing unless all were measured.
-std::optional<Best> best_of(const Results& results, const std::vector<std::string>& integrators,
-                            const std::string& scene, double time) {
+/// Of the integrators but the headline; nothing if few were measured, or none had a picture.
+std::optional<Best> best_other(const Results& results, const std::string& scene, double time) {
   Best best;
-  for (const std::string& integrator : integrators) {
+  int measured = 0;
+  for (const std::string& integrator : results.integrators()) {
+    if (integrator == headline_of(results)) continue;
+    if (results.seed_count(scene, integrator, time) > 0) ++measured;
     const std::optional<double> error = results.relmse(scene, integrator, time);
-    if (!error) return std::nullopt;
-    if (best.name.empty() || *error < best.relmse) best = {integrator, *error};
+    if (error && (best.name.empty() || *error < best.relmse)) best = {integrator, *error};
   }
+  if (measured < least_others || best.name.empty()) return std::nullopt;
   return best;
-}
-
-/// Why a bar cannot be applied to a scene that ships; "" if it can.
-std::string hindrance(const Results& results, const std::string& scene,
-                      const std::vector<std::string>& integrators) {
-  if (results.last_time(scene) != bar_seconds) return fmt::format("not at {:g} s", bar_seconds);
-  for (const std::string& integrator : integrators)
-    if (results.seed_count(scene, integrator, bar_seconds) < bar_seeds)
-      return fmt::format("fewer than {} seeds", bar_seeds);
-  return {};
-}
-
-/// What becomes of a bar: why it cannot be applied, or its verdict.
-std::string outcome(const std::string& hindrance, const Verdict& verdict) {
-  return hindrance.empty() ? text_of(verdict) : hindrance;
 }
 
 PeerFigure best_peer(const BenchScene& scene) {
@@ -69,75 +57,58 @@ std::string peer_bars(const BenchScene& scene, double time, const ErrorRatio& ra
   return text;
 }
 
-/// The headline's error over the best of four, gathered scene by scene.
+/// The headline's error over the least of the others', gathered scene by scene, time by time.
 class BestTable {
  public:
   explicit BestTable(const Results& results)
       : results_(results),
         headline_(headline_of(results)),
-        table_({"scene", "s", "best of four", "its relative MSE", headline_, headline_ + " / best",
+        table_({"scene", "s", "best other", "its relative MSE", headline_, headline_ + " / best",
                 "without the reference's noise", "bar", "kept?"}) {}
 
   void add(const std::string& scene) {
-    const double time = results_.last_time(scene);
-    const std::optional<Best> best = best_of(results_, four, scene, time);
-    const std::optional<double> ours = results_.relmse(scene, headline_, time);
-    std::vector<std::string> row{scene, fmt::format("{:g}", time), "–", "–", cell(ours)};
-    if (best && ours) {
-      const auto measured = measured_ratio(ours, best->relmse),
-                 noiseless = noiseless_ratio(ours, best->relmse, results_.reference_relmse(scene));
-      row[2] = best->name;
-      row[3] = cell(best->relmse);
-      for (const auto& ratio : {measured, noiseless}) row.push_back(cell(ratio));
-      all_.add(measured, noiseless);
-      if (!bench_scene(scene).is_peer() && noiseless) apply_bar(scene, measured, *noiseless, row);
-    }
-    row.resize(9, "–");
-    table_.add(row);
+    for (const double time : results_.times(scene))
+      if (const std::optional<Best> best = best_other(results_, scene, time))
+        add(scene, time, *best);
   }
 
   std::string text() {
-    const std::optional<ErrorRatio> mean = shipped_.noiseless.value();
-    std::string kept = "–";
-    if (shipped_.noiseless.count() < least_scenes)
-      kept = fmt::format("fewer than {} scenes", least_scenes);
-    else if (mean)
-      kept = outcome(mean_hindrance_, at_most(*mean, mean_bar));
-    table_.add({fmt::format("geometric mean of {} that ship", shipped_.noiseless.count()), "", "",
-                "", "", cell(shipped_.measured.value()), cell(mean), fmt::format("{:g}", mean_bar),
-                kept});
-    if (all_.measured.count() > shipped_.measured.count())
-      table_.add({fmt::format("geometric mean of all {}", all_.measured.count()), "", "", "", "",
-                  cell(all_.measured.value()), cell(all_.noiseless.value()), "–", "–"});
+    for (const auto& [time, means] : means_) {
+      const std::optional<ErrorRatio> mean = means.noiseless.value();
+      const bool is_enough = mean && means.noiseless.count() >= least_scenes;
+      table_.add({fmt::format("geometric mean of {}", means.noiseless.count()),
+                  fmt::format("{:g}", time), "", "", "", cell(means.measured.value()), cell(mean),
+                  fmt::format("{:g}", mean_bar),
+                  is_enough ? text_of(at_most(*mean, mean_bar))
+                            : fmt::format("fewer than {} scenes", least_scenes)});
+    }
     return table_.text();
   }
 
  private:
   struct Means {
-    void add(const std::optional<ErrorRatio>& as_measured,
-             const std::optional<ErrorRatio>& without_noise) {
-      measured.add(as_measured);
-      noiseless.add(without_noise);
-    }
     GeometricMean measured, noiseless;
   };
 
-  void apply_bar(const std::string& scene, const std::optional<ErrorRatio>& measured,
-                 const ErrorRatio& noiseless, std::vector<std::string>& row) {
-    std::vector<std::string> compared = four;
-    compared.push_back(headline_);
-    const std::string why_not = hindrance(results_, scene, compared);
-    if (!why_not.empty()) mean_hindrance_ = why_not;
-    shipped_.add(measured, noiseless);
-    row.push_back(fmt::format("{:g}", scene_bar));
-    row.push_back(outcome(why_not, at_most(noiseless, scene_bar)));
+  void add(const std::string& scene, double time, const Best& best) {
+    const std::optional<double> ours = results_.relmse(scene, headline_, time);
+    const auto measured = measured_ratio(ours, best.relmse),
+               noiseless = noiseless_ratio(ours, best.relmse, results_.reference_relmse(scene));
+    const bool ships = !bench_scene(scene).is_peer();
+    if (ships) {
+      means_[time].measured.add(measured);
+      means_[time].noiseless.add(noiseless);
+    }
+    const std::string kept = noiseless ? text_of(at_most(*noiseless, scene_bar)) : "no picture";
+    table_.add({scene, fmt::format("{:g}", time), best.name, cell(best.relmse), cell(ours),
+                cell(measured), cell(noiseless), ships ? fmt::format("{:g}", scene_bar) : "–",
+                ships ? kept : "–"});
   }
 
   const Results& results_;
   const std::string headline_;
   MarkdownTable table_;
-  Means shipped_, all_;
-  std::string mean_hindrance_;  ///< of the last scene that has one
+  std::map<double, Means> means_;  ///< by the time, over the scenes that ship
 };
 
 }  // namespace
@@ -166,8 +137,8 @@ std::string path_table(const Results& results) {
     const bool has_bar = known.bar > 0 && !known.is_peer();
     std::string kept = "–";
     if (has_bar && noiseless)
-      kept =
-          outcome(hindrance(results, scene, {"path", headline}), at_least(*noiseless, known.bar));
+      kept = time == bar_seconds ? text_of(at_least(*noiseless, known.bar))
+                                 : fmt::format("not at {:g} s", bar_seconds);
     table.add({scene, fmt::format("{:g}", time), cell(path), cell(ours), cell(measured),
                cell(noiseless), has_bar ? fmt::format("{:g}", known.bar) : "–", kept});
   }

@@ -7,9 +7,8 @@ namespace kaustik::bench {
 
 /// The time that other renderers had for their figures.
 inline constexpr double peer_seconds = 20;
-/// When the scenes that ship have to keep their bars, by how many seeds at least.
+/// When the scenes that ship have to keep their bars beside path tracing.
 inline constexpr double bar_seconds = 60;
-inline constexpr int bar_seeds = 2;
 
 /// Relative MSE that another renderer reaches in that time.
 struct PeerFigure {

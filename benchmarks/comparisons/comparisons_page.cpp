@@ -17,11 +17,11 @@
 namespace kaustik::bench {
 namespace {
 
-/// Less than this share of the processors' time: somebody else had the rest, or the method leaves
-/// processors idle.
-constexpr double quiet_share = 0.9;
-/// A reference whose own noise is more than this share of the least error compared is told of.
-constexpr double low_noise_share = 0.1;
+/// With a smaller fraction of the processors' time, other programs had the rest, or the method
+/// leaves processors idle.
+constexpr double quiet_fraction = 0.9;
+/// The page names references whose own noise is a larger fraction of the least error compared.
+constexpr double low_noise_fraction = 0.1;
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::create_directories(path.parent_path());
@@ -54,20 +54,22 @@ std::string about_references(const Results& results) {
         least = std::min(error.value(), least.value_or(*error));
     const std::optional<double> own = results.reference_relmse(scene);
     if (!own) untold.push_back(scene);
-    if (own && least && *own > low_noise_share * *least)
+    if (own && least && *own > low_noise_fraction * *least)
       noisy.push_back(fmt::format("{} ({:.0f} %)", scene, 100 * *own / *least));
     if (!results.has_one_reference(scene)) several.push_back(scene);
   }
   std::string text;
   if (!noisy.empty())
     text += fmt::format(
-        "\nThe reference's own noise is more than a tenth of the least error in the table for "
+        "\nThe reference's own noise is more than a tenth of the least error at the last time for "
         "{}.\n",
         list_of(noisy));
   if (!untold.empty())
-    text += fmt::format("\nReferences that don't tell their noise: {}.\n", list_of(untold));
+    text +=
+        fmt::format("\nThese references have no estimate of their noise: {}.\n", list_of(untold));
   if (!several.empty())
-    text += fmt::format("\nNot all was compared with the same reference: {}.\n", list_of(several));
+    text += fmt::format("\nOn these scenes runs were compared with different references: {}.\n",
+                        list_of(several));
   return text;
 }
 
@@ -75,38 +77,39 @@ std::string about_references(const Results& results) {
 std::string circumstances(const Results& results) {
   std::set<int> threads;
   int disturbed = 0;
-  double least_share = 1;
+  double least_fraction = 1;
   for (const Measurement& m : results.all()) {
     threads.insert(m.threads);
-    if (m.cpu_share < quiet_share) ++disturbed;
-    least_share = std::min(least_share, m.cpu_share);
+    if (m.cpu_share < quiet_fraction) ++disturbed;
+    least_fraction = std::min(least_fraction, m.cpu_share);
   }
   std::string text = fmt::format("{} runs on {} threads", results.all().size(), *threads.begin());
   if (threads.size() > 1) text += fmt::format(" to {}", *threads.rbegin());
   text += fmt::format(", by {}.", builds(results));
   if (disturbed > 0)
     text += fmt::format(
-        " {} of them had less than {:.0f} % of the processors' time, the worst {:.0f} %: others "
-        "ran beside them, or the method leaves processors idle.",
-        disturbed, 100 * quiet_share, 100 * least_share);
+        " {} of them had less than {:.0f} % of the processors' time, the worst {:.0f} %: other "
+        "programs ran, or the method leaves processors idle.",
+        disturbed, 100 * quiet_fraction, 100 * least_fraction);
   return text;
 }
 
 std::string error_tables(const Results& results) {
   const std::string headline = headline_of(results);
   std::string text =
-      "## Error\n\n" + error_table(results) + about_references(results) +
-      "\nEach error has the reference's own noise in it. The ratios below are told as measured "
-      "and without that noise: it is\nsubtracted from both errors. Where it is more than half of "
-      "one of them, what is left would tell little; then the ratio\nas measured stands there as a "
-      "bound (>, <), since without the noise it is farther from 1. Bars are applied to ratios\n"
-      "without the noise; what a bound does not decide can't be told.\n";
-  text += fmt::format(
-              "\n## Beside the best of the others\n\nThe error of `{0}` over the least of `path`, "
-              "`bdpt`, `ppm` and `vcm`, where all four were measured. On the scenes that ship,\n"
-              "after a minute, it has to be at most 1.1 on average and 1.3 on each.\n\n",
-              headline) +
-          best_table(results);
+      "## Error\n\nA dash: the method has no sample of some pixels yet.\n\n" +
+      error_table(results) + about_references(results) +
+      "\nEach error includes the noise of the reference. The tables below give ratios as measured, "
+      "and without that noise: it is\nsubtracted from both errors. Where the noise is more than "
+      "half of an error, the difference says little. The ratio as measured\nis then a bound (>, "
+      "<). Bars apply to ratios without the noise. Some cannot be decided by a bound.\n";
+  text +=
+      fmt::format(
+          "\n## Beside the best of all other methods\n\nThe error of `{0}` over the least error "
+          "of all other methods, `photonmap` included. On shipped scenes it must be\nat most "
+          "1.15 on each and 1.0 on average, at each time.\n\n",
+          headline) +
+      best_table(results);
   return text +
          fmt::format("\n## Beside path tracing\n\nThe error of `path` over that of `{}`.\n\n",
                      headline) +
@@ -119,37 +122,28 @@ std::string tables_beside_others(const Results& results,
   const std::string peers = peer_table(results);
   if (!peers.empty())
     text +=
-        "\n## Beside other renderers\n\nThe scenes and the others' figures are those of "
-        "[benchmarks/peer_scenes](../benchmarks/peer_scenes/README.md), which were measured\n"
-        "on 2 cores of one machine at 20 s; ours are measured where this page was made. Theirs "
-        "have the noise and bias of those\nreferences in them, ours the noise of our references: "
-        "nothing is subtracted. A bar of 3: at most a third of the best error.\n\n" +
+        "\n## Beside other renderers\n\nThe scenes and the figures of the other renderers are "
+        "those "
+        "of [benchmarks/peer_scenes](../benchmarks/peer_scenes/README.md),\nmeasured for 20 s on 2 "
+        "cores of one machine. Ours are measured where this page was made. Their figures include "
+        "the noise and\nthe bias of those references, ours the noise of our references. Nothing is "
+        "subtracted. A bar of 3 asks for a third of the best\nerror.\n\n" +
         peers;
   if (!peer_results.empty())
     text +=
-        "\n## At equal time beside Blender Cycles and POV-Ray\n\n`make bench-peers`: the same "
-        "geometry and light on the same cores for the same time, each one's start-up excluded. "
-        "POV-Ray is not\ncalibrated and has no bar.\n\n" +
+        "\n## At equal time beside Blender Cycles and POV-Ray\n\n`make bench-peers` gives all "
+        "renderers the same geometry, lamps and materials on the same cores for the same time, "
+        "without\ntheir start-up. POV-Ray is not calibrated and has no bar. Rooms named `plain_…` "
+        "are shipped scenes whose materials and lamps every\nrenderer has: matt surfaces, clear "
+        "glass, and lamps that are surfaces.\n\n" +
         peer_result_table(peer_results);
   return text;
 }
 
-std::string early_tables(const Results& results) {
-  const std::string early = early_table(results);
-  if (early.empty()) return {};
-  const std::vector<std::string> behind = scenes_that_photonmap_wins(results);
-  return "\n## The first seconds\n\n`photonmap` gathers from maps through an irradiance cache: a "
-         "smooth picture soon, with a bias that stays visible longer.\nIts error at the first time "
-         "and at the last, and the ratio without the reference's noise. " +
-         (behind.empty() ? std::string("At the end it is ahead nowhere.")
-                         : fmt::format("At the end it is still ahead in {}.", list_of(behind))) +
-         "\n\n" + early;
-}
-
 std::string tables(const Results& results, const std::vector<PeerResult>& peer_results) {
   return error_tables(results) + tables_beside_others(results, peer_results) +
-         early_tables(results) +
-         "\n## Means\n\nMean of the picture over that of the reference.\n\n" + mean_table(results);
+         "\n## Means\n\nThe mean of the picture over the mean of the reference.\n\n" +
+         mean_table(results);
 }
 
 /// Of path tracing and of the headline beside the reference, as far as pictures were kept; else
@@ -171,7 +165,7 @@ std::string picture_of(const std::string& scene, const std::string& results_file
   const std::string file = "comparisons/" + scene + ".jpg";
   if (pictures.empty() || !std::filesystem::exists(reference))
     return std::filesystem::exists(docs / file)
-               ? fmt::format("Of an earlier page:\n\n![pictures of {}]({})\n\n", scene, file)
+               ? fmt::format("From an earlier page:\n\n![pictures of {}]({})\n\n", scene, file)
                : std::string();
   std::filesystem::create_directories((docs / file).parent_path());
   write_shown_image(picture_strip(pictures, read_image(reference)), (docs / file).string(), 90);
@@ -182,20 +176,23 @@ std::string page(const Results& results, const std::vector<PeerResult>& peer_res
                  const std::string& results_file, const std::filesystem::path& docs) {
   std::string text = fmt::format(
       "# Methods compared over time\n\n"
-      "`make bench-scenes` measures this, `make comparisons` writes the page. Relative MSE is the "
-      "mean over pixels and channels of\n(x − r)²/(r² + 0.01) without the worst 0.1 % of the "
-      "pixels, against references that `make references` makes (of `peer_…`: where\nthere are "
-      "any, else those that other renderers have made). In these, what mirrors and glass show of "
-      "focused light is by `auto`\nitself, of long runs; see benchmarks/README.md. Time counts "
-      "from the start of rendering; a "
-      "picture counts from the end of its "
-      "last pass.\nWhere there are several seeds, errors are means over them.\n\n{}\n\n",
+      "`make bench-scenes` measures, `make comparisons` writes this page.\n\n"
+      "- **Error** is the relative MSE: the mean of (x − r)²/(r² + 0.01) over pixels and channels, "
+      "without the worst 0.1 % of the pixels.\n"
+      "- **References** r are made by `make references`, with [several "
+      "methods](../benchmarks/README.md). What mirrors and glass show of focused light\n  is by "
+      "long runs "
+      "of "
+      "`auto` itself. Scenes `peer_…` without such a reference have the one that came with them.\n"
+      "- **Time** counts from the start of rendering. A picture counts from the end of its last "
+      "pass, during\n  the first pass from its samples. Over several seeds the error is the "
+      "mean.\n\n{}\n\n",
       circumstances(results));
   text +=
       tables(results, peer_results) +
-      "\n## Scene by scene\n\nThe error over time; the pictures at the end of it, all brought to "
-      "the display by the same factor, and below each the relative\nsquared error of its "
-      "pixels, from 10⁻⁶ (dark blue) to 1 (yellow).\n\n";
+      "\n## Scene by scene\n\nThe error over time, and the pictures at its end, all with the same "
+      "exposure. Below each picture is the relative squared error\nof its pixels, from 10⁻⁶ (dark "
+      "blue) to 1 (yellow).\n\n";
   for (const std::string& scene : results.scenes()) {
     const std::string file = "comparisons/" + scene + ".svg";
     write_text(docs / file, error_plot(results, scene).svg());

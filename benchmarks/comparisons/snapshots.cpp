@@ -4,6 +4,8 @@
 #include <atomic>
 #include <limits>
 
+#include "kaustik/render/part_picture.h"
+
 namespace kaustik::bench {
 namespace {
 
@@ -25,7 +27,8 @@ Image colors_of(const Image& image) {
   return result;
 }
 
-/// Looks at the film of a session between its passes, when it is time to.
+/// Looks at the film of a session between its passes, when it is time to; during the first pass, at
+/// its samples so far.
 class Photographer {
  public:
   Photographer(const Session& session, const std::vector<double>& times, const Image& reference)
@@ -36,6 +39,16 @@ class Photographer {
   /// Time of rendering, without that of looking.
   double elapsed() const { return seconds_since(start_) - looking_seconds_; }
   bool is_over() const { return elapsed() > times_.back(); }
+
+  /// During a pass; called from one thread at a time.
+  void progressed() {
+    const size_t next = result_.pictures.size();
+    if (next >= times_.size() || last_pass_end_ > 0 || elapsed() < times_[next]) return;
+    const std::optional<Image> so_far = session_.snapshot();
+    result_.pictures.emplace_back();
+    if (so_far && !so_far->find_metadata(incomplete_key)) look_at(*so_far, 0);
+    result_.pictures.back() = latest_;
+  }
 
   void pass_done() {
     const double now = elapsed();
@@ -61,11 +74,13 @@ class Photographer {
   }
   void look() {
     const auto begin = std::chrono::steady_clock::now();
-    const Image image = session_.film().image();
+    look_at(session_.film().image(), session_.film().pass_count());
+    looking_seconds_ = looking_seconds_ + seconds_since(begin);
+  }
+  void look_at(const Image& image, uint32_t passes) {
     latest_ = compare_images(image, reference_);
     result_.last = colors_of(image);
-    result_.passes = session_.film().pass_count();
-    looking_seconds_ = looking_seconds_ + seconds_since(begin);
+    result_.passes = passes;
   }
 
   const Session& session_;
@@ -92,6 +107,7 @@ Snapshots render_with_snapshots(const Scene& scene, const Integrator& integrator
   const double threads = std::max(1, settings.threads);
   Photographer photographer(session, times, reference);
   const auto stop_in_time = [&](const Progress&) {
+    photographer.progressed();
     if (photographer.is_over()) stop.request_stop();
   };
   session.run(stop.get_token(), stop_in_time, [&] { photographer.pass_done(); });

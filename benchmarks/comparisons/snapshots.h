@@ -8,10 +8,11 @@ namespace kaustik::bench {
 
 /// How a picture stood at some times of its rendering.
 struct Snapshots {
-  /// One per time: the picture after the last pass that had ended by then; nothing: none had.
+  /// One per time: the picture after the last pass that had ended by then. If none had, the samples
+  /// of the first pass so far, where every pixel has one; else nothing.
   std::vector<std::optional<ImageComparison>> pictures;
   Image last;           ///< "R", "G", "B" of the last of them; empty: there is none
-  uint32_t passes = 0;  ///< of that
+  uint32_t passes = 0;  ///< that have ended, of that
   uint32_t samples_per_pass = 0;
   double cpu_share = 0;  ///< CPU time over time × threads
 };

@@ -8,8 +8,6 @@
 namespace kaustik::bench {
 namespace {
 
-const std::string rival = "photonmap";
-
 /// Of all integrators without settings: "2", or "1 – 3".
 std::string seeds_of(const Results& results, const std::string& scene, double time) {
   int least = 0, most = 0;
@@ -22,14 +20,6 @@ std::string seeds_of(const Results& results, const std::string& scene, double ti
   return least == most ? fmt::format("{}", most) : fmt::format("{} – {}", least, most);
 }
 
-/// The rival's error over the headline's.
-std::optional<ErrorRatio> rival_ratio(const Results& results, const std::string& scene,
-                                      double time) {
-  return noiseless_ratio(results.relmse(scene, rival, time),
-                         results.relmse(scene, headline_of(results), time),
-                         results.reference_relmse(scene));
-}
-
 }  // namespace
 
 std::string error_table(const Results& results) {
@@ -40,54 +30,17 @@ std::string error_table(const Results& results) {
   if (several_builds) header.emplace_back("build");
   MarkdownTable table(header);
   for (const std::string& scene : results.scenes()) {
-    const double time = results.last_time(scene);
-    std::vector<std::string> row{scene, fmt::format("{:g}", time), seeds_of(results, scene, time)};
-    for (const std::string& integrator : results.integrators())
-      row.push_back(cell(results.relmse(scene, integrator, time)));
-    row.push_back(cell(results.reference_relmse(scene)));
-    if (several_builds) row.push_back(results.builds_of(scene, results.integrators()));
-    table.add(row);
-  }
-  return table.text();
-}
-
-std::string early_table(const Results& results) {
-  const std::string headline = headline_of(results);
-  if (headline == rival || !results.has(rival)) return {};
-  std::vector<std::string> header{"scene"};
-  for (int i = 0; i < 2; ++i)
-    header.insert(header.end(), {"s", rival, headline, rival + " / " + headline, "ahead"});
-  MarkdownTable table(header);
-  GeometricMean means[2];
-  for (const std::string& scene : results.scenes()) {
-    std::vector<std::string> row{scene};
-    const double times[] = {results.times(scene).front(), results.last_time(scene)};
-    bool is_measured = false;
-    for (int i = 0; i < 2; ++i) {
-      const auto theirs = results.relmse(scene, rival, times[i]),
-                 ours = results.relmse(scene, headline, times[i]);
-      const std::optional<ErrorRatio> gain = rival_ratio(results, scene, times[i]);
-      means[i].add(gain);
-      is_measured = is_measured || gain;
-      row.insert(row.end(), {fmt::format("{:g}", times[i]), cell(theirs), cell(ours), cell(gain),
-                             !gain             ? "–"
-                             : gain->value < 1 ? rival
-                                               : headline});
+    for (const double time : results.times(scene)) {
+      std::vector<std::string> row{scene, fmt::format("{:g}", time),
+                                   seeds_of(results, scene, time)};
+      for (const std::string& integrator : results.integrators())
+        row.push_back(cell(results.relmse(scene, integrator, time)));
+      row.push_back(cell(results.reference_relmse(scene)));
+      if (several_builds) row.push_back(results.builds_of(scene, results.integrators()));
+      table.add(row);
     }
-    if (is_measured) table.add(row);
   }
-  table.add({"geometric mean", "", "", "", cell(means[0].value()), "", "", "", "",
-             cell(means[1].value()), ""});
   return table.text();
-}
-
-std::vector<std::string> scenes_that_photonmap_wins(const Results& results) {
-  std::vector<std::string> scenes;
-  for (const std::string& scene : results.scenes()) {
-    const std::optional<ErrorRatio> gain = rival_ratio(results, scene, results.last_time(scene));
-    if (gain && gain->value < 1) scenes.push_back(scene);
-  }
-  return scenes;
 }
 
 std::string mean_table(const Results& results) {

@@ -10,11 +10,13 @@ namespace kaustik::bench {
 // Tables in Markdown, over all scenes, at the last time of each unless they tell another. Ratios
 // without the reference's noise are those of noiseless_ratio().
 
-/// The error by every integrator, the reference's own noise, and which build has measured.
+/// The error by every integrator at each time, the reference's own noise, and which build has
+/// measured.
 std::string error_table(const Results& results);
 
-/// The headline's error over the least of path, bdpt, ppm and vcm, where all four were measured,
-/// and what becomes of its bars on the scenes that ship. "" without the headline.
+/// The headline's error over the least of all other integrators, at each time, where at least four
+/// of them were measured, and what becomes of its bars on the scenes that ship. "" without the
+/// headline.
 std::string best_table(const Results& results);
 
 /// The error of path tracing over the headline's, and what becomes of its bars.
@@ -23,13 +25,6 @@ std::string path_table(const Results& results);
 /// The figures of other renderers beside ours, and what becomes of the bars. "" if none of their
 /// scenes was measured.
 std::string peer_table(const Results& results);
-
-/// The error by "photonmap" and the headline at the first time and at the last, and which of them
-/// is ahead; "" if one was not measured.
-std::string early_table(const Results& results);
-
-/// Where "photonmap" is ahead at the last time.
-std::vector<std::string> scenes_that_photonmap_wins(const Results& results);
 
 /// Means of the pictures relative to those of the references.
 std::string mean_table(const Results& results);

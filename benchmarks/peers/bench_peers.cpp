@@ -1,10 +1,10 @@
 #include "kaustik/integrator/registry.h"
-// Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship, and three
-// of them as plain rooms (plain_room.h, Cycles alone), with each of them for the same time on the same threads, start-up excluded, and prints the errors against
-// the stored references, one line of JSON per pair, which it also appends to a results file, then a
-// table; comparisons_page makes a page of the file. Exit status 1: a bar is not kept, or cannot be
-// told. The peers get the scene as Kaustik has loaded it. Cycles' picture has to have our mean;
-// POV-Ray is not calibrated.
+// Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship, and
+// three of them as plain rooms (plain_room.h, Cycles alone), with each of them for the same time on
+// the same threads, start-up excluded, and prints the errors against the stored references, one
+// line of JSON per pair, which it also appends to a results file, then a table; comparisons_page
+// makes a page of the file. Exit status 1: a bar is not kept, or cannot be told. The peers get the
+// scene as Kaustik has loaded it. Cycles' picture has to have our mean; POV-Ray is not calibrated.
 #include <CLI/CLI.hpp>
 
 #include <cmath>
@@ -35,12 +35,10 @@ struct PeerBench {
   static constexpr std::string_view plain_prefix = "plain_";
 };
 
-constexpr std::array peer_benches{PeerBench{"cornell_box", 2, 3},
-                                  PeerBench{"cornell_spheres", 5, 5},
-                                  PeerBench{"metal_ring", 50, 50},
-                                  PeerBench{"plain_museum", 5, 5},
-                                  PeerBench{"plain_gallery_1", 5, 5},
-                                  PeerBench{"plain_atrium", 5, 5}};
+constexpr std::array peer_benches{
+    PeerBench{"cornell_box", 2, 3},     PeerBench{"cornell_spheres", 5, 5},
+    PeerBench{"metal_ring", 50, 50},    PeerBench{"plain_museum", 5, 5},
+    PeerBench{"plain_gallery_1", 5, 5}, PeerBench{"plain_atrium", 5, 5}};
 /// Cycles' mean may differ from ours by this; otherwise it may not be the same scene.
 constexpr double mean_tolerance = 0.02;
 
@@ -65,10 +63,7 @@ std::string default_integrator() {
 class PeerComparison {
  public:
   PeerComparison(const PeerBench& bench, const Options& options, const Image& reference)
-      : bench_(bench),
-        options_(options),
-        reference_(reference),
-        description_(bench.description()) {
+      : bench_(bench), options_(options), reference_(reference), description_(bench.description()) {
     use_peer_filter(description_);
     override_property(description_, fmt::format("film.width={}", reference.width()));
     override_property(description_, fmt::format("film.height={}", reference.height()));
