@@ -10,6 +10,7 @@
 
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/base/statistics.h"
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/render/session.h"
@@ -127,7 +128,7 @@ SeedResult render(const Setup& setup, const std::string& integrator, uint64_t se
 Found measure(const std::string& scene, const std::string& integrator, double seconds) {
   // Learning belongs to a seed, so each thread has its own.
   std::vector<Setup> setups;
-  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+  for (int i = 0; i < usable_processors(); ++i)
     setups.emplace_back(scene, integrator);
   std::vector<SeedResult> of_seeds(seeds);
   std::atomic<uint64_t> next{0};

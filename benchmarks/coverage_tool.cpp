@@ -6,6 +6,7 @@
 
 #include "benchmarks/coverage_scenes.h"
 #include "benchmarks/report.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/base/statistics.h"
 #include "kaustik/render/film_errors.h"
 #include "kaustik/render/session.h"
@@ -86,7 +87,7 @@ void for_each_seed(const CoverageScene& scene, const std::string& integrator, ui
                    const Work& work) {
   std::atomic<uint64_t> next{0};
   std::vector<std::jthread> threads;
-  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+  for (int i = 0; i < usable_processors(); ++i)
     threads.emplace_back([&] {
       const CoverageSetup setup(scene, integrator);
       for (uint64_t k = next++; k < count; k = next++) work(setup, k);

@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "kaustik/base/processors.h"
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/loader/scene_format.h"
@@ -63,7 +64,7 @@ class Stopwatch {
   Clock::time_point start() const { return start_; }
   Moment now() const {
     return {seconds_since(start_),
-            (processor_seconds() - processor_before_) / std::thread::hardware_concurrency()};
+            (processor_seconds() - processor_before_) / usable_processors()};
   }
 
  private:

@@ -3,20 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <thread>
 
 #include "kaustik/base/to_integer.h"
-#include "screen.h"
 
 namespace kaustik::app {
-
-int usable_threads(int asked) {
-  const int available = int(std::thread::hardware_concurrency());
-  if (available == 0 || asked <= available) return asked;
-  warn(fmt::format("--threads {}: this machine runs {} at a time, so that many are used", asked,
-                   available));
-  return available;
-}
 
 std::string duration_text(double seconds) {
   const auto s = to_integer(seconds + 0.5, int64_t(0), int64_t(1) << 53);

@@ -3,8 +3,6 @@
 
 namespace kaustik::app {
 
-/// Threads to use where `asked` are asked for (0: all): no more than the machine runs at a time.
-int usable_threads(int asked);
 /// "1 h 02 min", "3 min 04 s", "12 s".
 std::string duration_text(double seconds);
 /// "12.3 M", "4.5 k".

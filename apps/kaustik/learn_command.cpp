@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "console.h"
 #include "events.h"
 #include "exit_codes.h"
 #include "file_roles.h"
@@ -14,6 +13,7 @@
 #include "screen.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
+#include "thread_choice.h"
 
 namespace kaustik::app {
 namespace {
@@ -34,7 +34,7 @@ SessionSettings session_settings(const LearnOptions& options) {
   SessionSettings settings;
   settings.seed = options.recipe.seed;
   settings.passes = options.passes;
-  settings.threads = usable_threads(options.threads);
+  settings.threads = usable_threads(options.threads, options.progress.quiet);
   if (options.spp) settings.samples_per_pass = (*options.spp + options.passes - 1) / options.passes;
   return settings;
 }

@@ -14,6 +14,8 @@
 #include "exit_codes.h"
 #include "first_steps.h"
 #include "kaustik/base/error.h"
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/base/version.h"
 #include "scene_search.h"
 #include "screen.h"
@@ -155,6 +157,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   kaustik::app::listen_for_requests();
   kaustik::app::prepare_standard_streams();
+  const kaustik::ThreadLimit limit(kaustik::usable_processors());
   std::string message;
   const int exit_code = run_and_tell(argc, argv, message);
   kaustik::app::events().end(exit_code, message);

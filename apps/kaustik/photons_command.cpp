@@ -14,6 +14,7 @@
 #include "screen.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
+#include "thread_choice.h"
 
 namespace kaustik::app {
 namespace {
@@ -97,7 +98,7 @@ void trace_photons(PhotonsOptions options) {
   settings.task = JobTask::trace_photons;
   settings.record.recipe = recipe;
   settings.session.seed = recipe.seed;
-  settings.session.threads = usable_threads(options.threads);
+  settings.session.threads = usable_threads(options.threads, options.progress.quiet);
   settings.build = options.build;
   Job job(std::move(description), std::move(settings), {terminal_messages(), {}, {}});
   TracedPhotons traced;

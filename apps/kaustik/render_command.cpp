@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "commands.h"
-#include "console.h"
 #include "file_roles.h"
 #include "kaustik/base/version.h"
 #include "kaustik/image/tone_mapping.h"
@@ -23,6 +22,7 @@
 #include "standard_streams.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
+#include "thread_choice.h"
 
 namespace kaustik::app {
 namespace {
@@ -82,7 +82,7 @@ void render(RenderOptions options) {
                  fmt::format("go on with it: kaustik resume {}", *options.checkpoint));
   SessionSettings& settings = job.session;
   settings.seed = recipe.seed;
-  settings.threads = usable_threads(options.threads);
+  settings.threads = usable_threads(options.threads, options.progress.quiet);
   settings.first_pass = options.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;

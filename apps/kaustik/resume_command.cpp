@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "commands.h"
-#include "console.h"
 #include "kaustik/base/file.h"
 #include "kaustik/base/version.h"
 #include "kaustik/render/program_version.h"
@@ -20,6 +19,7 @@
 #include "screen.h"
 #include "standard_streams.h"
 #include "texture_memory.h"
+#include "thread_choice.h"
 
 namespace kaustik::app {
 namespace {
@@ -97,7 +97,7 @@ Limits limits_of(const ResumeOptions& options) {
 SessionSettings session_settings(const ResumeOptions& options, const Limits& limits,
                                  const Checkpoint& checkpoint) {
   SessionSettings settings = settings_to_go_on(checkpoint);
-  settings.threads = usable_threads(options.threads);
+  settings.threads = usable_threads(options.threads, options.progress.quiet);
   if (!options.passes && !options.spp && !limits.seconds && !limits.error) return settings;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;

@@ -30,7 +30,7 @@ void check_scene_name(const std::string& output) {
 }
 
 void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
+  command.add_option("--threads", threads, "Threads; 0: as many as the process may run at a time [0]")->check(whole_number(0, 4096));
 }
 
 void add_definitions(CLI::App& command, std::vector<std::string>& definitions) {

@@ -1,6 +1,6 @@
+#include "kaustik/base/processors.h"
 #include "version_json.h"
 
-#include <thread>
 #include <vector>
 
 #include "build_facts.h"
@@ -34,6 +34,7 @@ std::vector<std::string> vector_instructions() {
 }  // namespace
 
 std::string version_json() {
+  const Processors here = processors();
   return JsonObject()
       .add("name", "kaustik")
       .add("version", KAUSTIK_VERSION)
@@ -41,7 +42,8 @@ std::string version_json() {
       .add("build", KAUSTIK_BUILD_TYPE)
       .add("system", KAUSTIK_SYSTEM)
       .add("libraries", library_versions())
-      .add("threads", uint64_t(std::thread::hardware_concurrency()))
+      .add("processors", uint64_t(here.of_machine))
+      .add("threads", uint64_t(here.usable()))
       .add("vector_instructions", vector_instructions())
       .text();
 }

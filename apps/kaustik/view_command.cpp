@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "commands.h"
-#include "console.h"
 #include "environment_variable.h"
 #include "file_roles.h"
 #include "kaustik/integrator/foreign_integrators.h"
@@ -25,6 +24,7 @@
 #include "standard_streams.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
+#include "thread_choice.h"
 
 namespace kaustik::app {
 namespace {
@@ -126,7 +126,7 @@ void view_scene(ViewerOptions options) {
                        : std::filesystem::path(recipe.scene).stem().string();
   settings.engine.recipe = recipe;
   settings.engine.build = options.build;
-  settings.engine.session.threads = usable_threads(options.threads);
+  settings.engine.session.threads = usable_threads(options.threads, false);
   settings.engine.session.is_endless = true;
   settings.engine.session.samples_per_pass = samples_per_pass;
   settings.address = options.address;

@@ -8,11 +8,11 @@
 
 #include <cmath>
 #include <sstream>
-#include <thread>
 
 #include "benchmarks/comparisons/bench_scene.h"
 #include "benchmarks/comparisons/measurement.h"
 #include "benchmarks/comparisons/snapshots.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/loader/scene_format.h"
@@ -237,7 +237,7 @@ int run_all(int argc, char** argv) {
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
   std::sort(options.seconds.begin(), options.seconds.end());
-  if (options.threads == 0) options.threads = int(std::thread::hardware_concurrency());
+  if (options.threads == 0) options.threads = usable_processors();
   std::vector<BenchScene> scenes;
   for (const std::string& name : options.scenes) scenes.push_back(bench_scene(name));
   const std::vector<std::string> integrators = known_integrators(options.integrators);

@@ -1,3 +1,4 @@
+#include "kaustik/base/processors.h"
 #include "kaustik/integrator/registry.h"
 // Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship, and
 // three of them as plain rooms (plain_room.h, Cycles alone), with each of them for the same time on
@@ -9,7 +10,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <thread>
 
 #include "benchmarks/comparisons/measurement.h"
 #include "benchmarks/comparisons/peer_result.h"
@@ -198,7 +198,7 @@ int run_all(int argc, char** argv) {
   CLI::App app("Compares with Blender Cycles and POV-Ray at equal time.");
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
-  if (options.threads == 0) options.threads = int(std::thread::hardware_concurrency());
+  if (options.threads == 0) options.threads = usable_processors();
   if (!options.folder.empty()) {
     write_plain_rooms(options);
     return 0;

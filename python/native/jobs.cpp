@@ -7,11 +7,11 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "bind.h"
 #include "films.h"
 #include "jobs.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/base/version.h"
 #include "kaustik/render/job.h"
 #include "kaustik/render/resume.h"
@@ -46,8 +46,7 @@ JobSettings job_settings(const Wishes& wishes, const DescribedScene& scene) {
   JobSettings settings;
   settings.session.seed = wishes.seed;
   // More threads than there are at a time only cost.
-  const int available = int(std::thread::hardware_concurrency());
-  settings.session.threads = available > 0 ? std::min(wishes.threads, available) : wishes.threads;
+  settings.session.threads = std::min(wishes.threads, usable_processors());
   settings.session.first_pass = wishes.first_pass;
   settings.session.passes = wishes.passes;
   settings.session.samples_per_pixel = wishes.spp;

@@ -1,9 +1,9 @@
 // Photon maps: traced, kept in files, and shown as arrays.
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "bind.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/base/version.h"
 #include "kaustik/base/wavelengths.h"
 #include "kaustik/render/job.h"
@@ -120,8 +120,7 @@ class PhotonTracing {
     settings.record.recipe.seed = seed;
     settings.record.recipe.is_strict = scene.description->is_strict;
     settings.session.seed = seed;
-    const int available = int(std::thread::hardware_concurrency());
-    settings.session.threads = available > 0 ? std::min(threads, available) : threads;
+    settings.session.threads = std::min(threads, usable_processors());
     settings.previous = scene.built;
     Description description = copy_of(*scene.description);
     add_camera_if_missing(description);

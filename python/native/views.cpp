@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "bind.h"
 #include "jobs.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/base/version.h"
 #include "kaustik/render/prepared_scene.h"
 #include "kaustik/view/view_server.h"
@@ -32,9 +32,7 @@ view::ViewSettings settings_for(const DescribedScene& scene, const ViewWishes& w
   settings.scene = wishes.name;
   settings.engine.recipe.integrator = wishes.integrator;
   settings.engine.recipe.is_strict = scene.description->is_strict;
-  const int available = int(std::thread::hardware_concurrency());
-  settings.engine.session.threads =
-      available > 0 ? std::min(wishes.threads, available) : wishes.threads;
+  settings.engine.session.threads = std::min(wishes.threads, usable_processors());
   settings.engine.session.passes = endless_passes;
   settings.engine.session.seed = wishes.seed;
   settings.port = wishes.port;

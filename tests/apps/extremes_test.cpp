@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <thread>
 
+#include "kaustik/base/processors.h"
 #include "tests/apps/program.h"
 
 namespace kaustik::test {
@@ -16,7 +16,7 @@ TEST_F(Extremes, LittleMemoryIsToldWhereverItRunsOut) {
   write("scene.xml", small_scene());
   int ended = 0, told = 0;
   // From less than the program's own libraries take to enough: each thread takes some, too.
-  const rlim_t most = 400 + 100 * rlim_t(std::thread::hardware_concurrency());
+  const rlim_t most = 400 + 100 * rlim_t(usable_processors());
   for (rlim_t megabytes = 140; megabytes <= 400 || (ended == 0 && megabytes <= most);
        megabytes += megabytes < 400 ? 4 : megabytes / 16) {
     RunOptions options;

@@ -1,4 +1,5 @@
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/processors.h"
 
 #include <gtest/gtest.h>
 
@@ -99,7 +100,7 @@ void add_often(int& counter) {
 class PlantedRace : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "needs two threads";
+    if (usable_processors() < 2) GTEST_SKIP() << "needs two threads";
     GTEST_FLAG_SET(death_test_style, "threadsafe");
   }
 };

@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "kaustik/base/processors.h"
 #include "tests/fuzz/scene_grammar.h"
 #include "tests/fuzz/worker.h"
 #include "tests/support/temporary_folder.h"
@@ -30,7 +31,7 @@ constexpr uint64_t enough_for_share = 30;
 constexpr double least_share = 0.4;
 
 struct Options {
-  uint64_t first = 1, scenes = 100, jobs = std::max(1u, std::thread::hardware_concurrency());
+  uint64_t first = 1, scenes = 100, jobs = uint64_t(usable_processors());
   bool only_print = false, tells_refusals = false;
 };
 

@@ -1,13 +1,28 @@
 #include "kaustik/base/parallel.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
+#include "kaustik/base/processors.h"
 #include "kaustik/base/thread_order.h"
+
+namespace kaustik {
+
+struct ThreadLimit::Control {
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : control_(new Control{{tbb::global_control::max_allowed_parallelism, size_t(threads)}}) {}
+
+ThreadLimit::~ThreadLimit() = default;
+
+}  // namespace kaustik
 
 namespace kaustik::parallel_details {
 namespace {
@@ -61,7 +76,7 @@ void run_both(Call<> first, Call<> second) {
 }
 
 void run_with_threads(int threads, Call<> body) {
-  tbb::task_arena arena(threads > 0 ? threads : int(tbb::task_arena::automatic));
+  tbb::task_arena arena(threads > 0 ? threads : usable_processors());
   // Where all its places are taken another thread runs the body.
   const TaskOrder order;
   arena.execute([&] { order.run(body); });
