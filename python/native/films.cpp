@@ -8,6 +8,7 @@
 #include "bind.h"
 #include "films.h"
 #include "kaustik/base/version.h"
+#include "kaustik/render/checkpoint_merge.h"
 #include "kaustik/render/finished_picture.h"
 #include "kaustik/render/program_version.h"
 

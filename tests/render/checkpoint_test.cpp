@@ -11,6 +11,7 @@
 
 #include "kaustik/base/checksum.h"
 #include "kaustik/base/file.h"
+#include "kaustik/render/checkpoint_merge.h"
 #include "kaustik/render/packed_sums.h"
 #include "kaustik/render/session.h"
 #include "tests/render/glass_ball_scene.h"
@@ -72,7 +73,7 @@ RenderRecord little_record() {
   record.recipe.seed = 0xfedcba9876543210u;
   record.recipe.samples_per_pass = 2;
   record.recipe.digest = {17, 18};
-  record.plan = {3, 16, 60.0, 0.02};
+  record.plan = {3, 16, 60.0, 0.02, {{0, 64}, 4}};
   record.outputs.files = {"a.exr", "b.png"};
   record.outputs.tone = "linear";
   record.outputs.tone_settings = {"exposure=1"};
@@ -157,6 +158,7 @@ TEST_F(CheckpointFile, HoldsEverything) {
   EXPECT_EQ(read.record.plan.passes, 16u);
   EXPECT_EQ(read.record.plan.seconds, 60.0);
   EXPECT_EQ(read.record.plan.error, 0.02);
+  EXPECT_EQ(read.record.plan.division, record.plan.division);
   EXPECT_EQ(read.record.outputs.files, record.outputs.files);
   EXPECT_EQ(read.record.outputs.tone, "linear");
   EXPECT_EQ(read.record.outputs.tone_settings, record.outputs.tone_settings);
@@ -405,6 +407,11 @@ TEST_F(CheckpointFile, NumbersOutOfRangeAreRefused) {
           [](RenderRecord& record) { record.recipe.samples_per_pass = 0xffffffff; });
   refused("do not have the samples", {0, 1},
           [](RenderRecord& record) { record.recipe.samples_per_pass = 3; });
+  for (const PassDivision& division :
+       {PassDivision{{3, 19}, 17}, PassDivision{{3, 18}, 2}, PassDivision{{4, 20}, 2},
+        PassDivision{{3, 0x80000001}, 2}, PassDivision{{0, 1}, 0}})
+    refused("the parts of its passes are not valid", {3, 4},
+            [&](RenderRecord& record) { record.plan.division = division; });
   RenderRecord record = little_record();
   record.plan = {0x7ffffffe, 2, {}, {}};
   write_checkpoint(path(), record, little_film({0x7ffffffe, 0x80000000}));

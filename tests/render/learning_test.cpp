@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kaustik/base/file.h"
+#include "kaustik/render/checkpoint_merge.h"
 #include "kaustik/render/job.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/scripted_integrator.h"

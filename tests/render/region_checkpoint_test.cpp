@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "kaustik/base/checksum.h"
+#include "kaustik/render/checkpoint_merge.h"
 #include "tests/render/region_testing.h"
 #include "tests/support/temporary_folder.h"
 

@@ -14,6 +14,8 @@ namespace {
 
 constexpr uint32_t byte_order_mark = 0x01020304, swapped_byte_order_mark = 0x04030201;
 constexpr size_t checksum_size = sizeof(uint64_t);
+/// That are read at a time.
+constexpr size_t piece_bytes = size_t{1} << 20;
 
 bool starts_with(std::span<const uint8_t> bytes, const std::array<uint8_t, 8>& magic) {
   return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
@@ -44,14 +46,19 @@ std::vector<uint8_t> BinaryWriter::finished() {
   return std::move(bytes_);
 }
 
-BinaryReader::BinaryReader(const BinaryFileKind& kind, const std::string& path)
-    : BinaryReader(kind, read_file(path), path) {}
+BinaryReader::BinaryReader(const BinaryFileKind& kind, const std::string& path, FileCheck check)
+    : kind_(kind), path_(path), file_(std::make_unique<const InputFile>(path)) {
+  size_ = unloaded_ = file_->size();
+  check_frame(check);
+}
 
 BinaryReader::BinaryReader(const BinaryFileKind& kind, std::vector<uint8_t> bytes,
                            const std::string& name)
-    : kind_(kind), path_(name), bytes_(std::move(bytes)), rest_(bytes_) {
-  check_frame();
+    : kind_(kind), path_(name), bytes_(std::move(bytes)), rest_(bytes_), size_(bytes_.size()) {
+  check_frame(FileCheck::whole);
 }
+
+BinaryReader::~BinaryReader() = default;
 
 void BinaryReader::fail(const std::string& what, const std::string& remedy) const {
   throw Error(ErrorKind::input, what, remedy, place_in(path_));
@@ -61,8 +68,9 @@ void BinaryReader::damaged(const std::string& why) const {
   fail(fmt::format("the {} is damaged: {}", kind_.name, why), kind_.if_unusable);
 }
 
-void BinaryReader::check_frame() {
-  if (!starts_with(bytes_, kind_.magic))
+void BinaryReader::check_frame(FileCheck check) {
+  load(std::min<uint64_t>(size_, kind_.magic.size()));
+  if (!starts_with(rest_, kind_.magic))
     fail(fmt::format("this is not a {}", kind_.name), kind_.if_foreign);
   rest_ = rest_.subspan(kind_.magic.size());
   const auto order = get<uint32_t>();
@@ -75,17 +83,67 @@ void BinaryReader::check_frame() {
     fail(fmt::format("the {} has version {}, this program reads version {}", kind_.name, version,
                      kind_.version),
          kind_.if_unusable);
-  if (rest_.size() < checksum_size) damaged("it is truncated");
-  const size_t content = bytes_.size() - checksum_size;
-  uint64_t stored;
-  std::memcpy(&stored, bytes_.data() + content, checksum_size);
-  if (stored != checksum(std::span(bytes_).first(content)))
+  if (rest_.size() + unloaded_ < checksum_size) damaged("it is truncated");
+  if (check == FileCheck::whole && stored_checksum() != checksum_of_content())
     damaged("its checksum does not match, it is truncated or bytes have changed");
-  rest_ = rest_.first(rest_.size() - checksum_size);
+  // What follows is the content.
+  const size_t loaded_part = checksum_size - std::min<uint64_t>(unloaded_, checksum_size);
+  unloaded_ -= checksum_size - loaded_part;
+  rest_ = rest_.first(rest_.size() - loaded_part);
+}
+
+uint64_t BinaryReader::stored_checksum() const {
+  std::array<uint8_t, checksum_size> bytes{};
+  if (!file_)
+    std::copy(bytes_.end() - checksum_size, bytes_.end(), bytes.begin());
+  else if (file_->read(size_ - checksum_size, bytes) < checksum_size)
+    damaged("it is truncated");
+  uint64_t sum;
+  std::memcpy(&sum, bytes.data(), checksum_size);
+  return sum;
+}
+
+uint64_t BinaryReader::checksum_of_content() const {
+  const uint64_t content = size_ - checksum_size;
+  if (!file_) return checksum(std::span(bytes_).first(content));
+  Checksum sum(content);
+  std::vector<uint8_t> piece(size_t(std::min<uint64_t>(content, piece_bytes)));
+  for (uint64_t at = 0; at < content;) {
+    const auto part = std::span(piece).first(size_t(std::min<uint64_t>(content - at, piece_bytes)));
+    if (file_->read(at, part) < part.size()) damaged("it is truncated");
+    sum.add(part);
+    at += part.size();
+  }
+  return sum.value();
+}
+
+void BinaryReader::load_from_file(size_t count) {
+  if (count > rest_.size() + unloaded_) damaged("it is truncated");
+  const size_t kept = rest_.size();
+  const auto more = size_t(std::min<uint64_t>(unloaded_, std::max(count - kept, piece_bytes)));
+  if (kept > 0) std::memmove(bytes_.data(), rest_.data(), kept);
+  bytes_.resize(kept + more);
+  if (file_->read(unloaded_begin_, std::span(bytes_).subspan(kept)) < more)
+    damaged("it is truncated");
+  unloaded_ -= more;
+  unloaded_begin_ += more;
+  rest_ = bytes_;
+}
+
+void BinaryReader::copy_to(uint8_t* out, uint64_t count) {
+  while (count > 0) {
+    load(1);
+    const auto bytes = rest_.first(size_t(std::min<uint64_t>(count, rest_.size())));
+    std::memcpy(out, bytes.data(), bytes.size());
+    rest_ = rest_.subspan(bytes.size());
+    out += bytes.size();
+    count -= bytes.size();
+  }
 }
 
 std::span<const uint8_t> BinaryReader::get_bytes(uint64_t count) {
   need(count, 1);
+  load(count);
   const auto bytes = rest_.first(count);
   rest_ = rest_.subspan(count);
   return bytes;
@@ -109,7 +167,7 @@ uint64_t BinaryReader::get_count(size_t item_size) {
 }
 
 void BinaryReader::expect_end() const {
-  if (!rest_.empty()) damaged("something follows its end");
+  if (!rest_.empty() || unloaded_ > 0) damaged("something follows its end");
 }
 
 bool is_of_kind(const BinaryFileKind& kind, const std::string& path) {

@@ -5,12 +5,15 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 namespace kaustik {
+
+class InputFile;
 
 /// A kind of file and what people are told of it.
 struct BinaryFileKind {
@@ -44,18 +47,28 @@ class BinaryWriter {
   std::vector<uint8_t> bytes_;
 };
 
+/// Whether a file's bytes are compared with its checksum before they are used. Who looks at the
+/// first of them only, and believes nothing, may save the time that it takes to read all.
+enum class FileCheck { whole, frame_only };
+
 /// Reads such a file; whatever is wrong with it is an Error(input) with the file as its place.
-/// Nothing is allocated but in proportion to the bytes that are there.
+/// Nothing is allocated but in proportion to the bytes that are there. Of a file on the disk no
+/// more is in memory at a time than is asked for at once.
 class BinaryReader {
  public:
   /// Throws if the file is missing, of another kind, version or byte order, truncated or damaged.
-  BinaryReader(const BinaryFileKind& kind, const std::string& path);
+  BinaryReader(const BinaryFileKind& kind, const std::string& path,
+               FileCheck check = FileCheck::whole);
   /// The same of bytes from elsewhere, which messages call by `name`.
   BinaryReader(const BinaryFileKind& kind, std::vector<uint8_t> bytes, const std::string& name);
+  ~BinaryReader();
+  BinaryReader(const BinaryReader&) = delete;
+  BinaryReader& operator=(const BinaryReader&) = delete;
   template <typename T>
   T get() {
     static_assert(std::is_trivially_copyable_v<T>);
     need(1, sizeof(T));
+    load(sizeof(T));
     T value;
     std::memcpy(&value, rest_.data(), sizeof(T));
     rest_ = rest_.subspan(sizeof(T));
@@ -65,10 +78,10 @@ class BinaryReader {
   std::vector<T> get_array(uint64_t count) {
     need(count, sizeof(T));
     std::vector<T> values(count);
-    if (count > 0) std::memcpy(static_cast<void*>(values.data()), rest_.data(), count * sizeof(T));
-    rest_ = rest_.subspan(count * sizeof(T));
+    copy_to(reinterpret_cast<uint8_t*>(values.data()), count * sizeof(T));
     return values;
   }
+  /// Until the next call.
   std::span<const uint8_t> get_bytes(uint64_t count);
   std::string get_text();
   bool get_flag();
@@ -79,7 +92,7 @@ class BinaryReader {
 
   /// Throws unless so many items of this size follow.
   void need(uint64_t count, size_t item_size) const {
-    if (count > rest_.size() / item_size) damaged("a count in it is larger than the file");
+    if (count > (rest_.size() + unloaded_) / item_size) damaged("a count in it is larger than the file");
   }
   /// "the photon map is damaged: " and why.
   [[noreturn]] void damaged(const std::string& why) const;
@@ -87,12 +100,25 @@ class BinaryReader {
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
-  void check_frame();
+  void check_frame(FileCheck check);
+  /// Of all bytes but the checksum itself.
+  uint64_t checksum_of_content() const;
+  uint64_t stored_checksum() const;
+  /// Brings so many of the bytes that follow into memory.
+  void load(size_t count) {
+    if (count > rest_.size()) load_from_file(count);
+  }
+  void load_from_file(size_t count);
+  void copy_to(uint8_t* out, uint64_t count);
 
   const BinaryFileKind& kind_;
   std::string path_;
-  std::vector<uint8_t> bytes_;
-  std::span<const uint8_t> rest_;
+  std::unique_ptr<const InputFile> file_;  ///< null: all is in memory
+  std::vector<uint8_t> bytes_;             ///< of the file some
+  std::span<const uint8_t> rest_;          ///< of these, those that follow
+  uint64_t size_ = 0;                      ///< of the file
+  uint64_t unloaded_ = 0;                  ///< bytes of the file that follow `rest_`
+  uint64_t unloaded_begin_ = 0;            ///< their place
 };
 
 /// Whether the file starts as one of this kind does. Throws Error(input) if it cannot be read.

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
-#include <tuple>
 #include <utility>
 
 #include "kaustik/base/binary_file.h"
@@ -16,7 +16,7 @@ namespace kaustik {
 namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {{0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-                                            16,
+                                            17,
                                             "checkpoint",
                                             "give a checkpoint (.kpt) that a render has written",
                                             "render again with this program"};
@@ -102,6 +102,19 @@ void put_plan(BinaryWriter& writer, const StopPlan& plan) {
   writer.put(plan.passes);
   put_optional(writer, plan.seconds);
   put_optional(writer, plan.error);
+  for (const uint32_t number :
+       {plan.division.whole.begin, plan.division.whole.end, plan.division.parts})
+    writer.put(number);
+}
+
+/// Either nothing is divided, or the plan is of some parts of a whole.
+bool is_valid(const PassDivision& division, const StopPlan& plan) {
+  if (!division.is_divided()) return division == PassDivision{};
+  const PassRange& whole = division.whole;
+  return whole.begin < whole.end && whole.end <= pass_limit &&
+         division.parts <= std::min(whole.end - whole.begin, PassPart::maximum_count) &&
+         plan.first_pass >= whole.begin && plan.passes > 0 &&
+         plan.first_pass + plan.passes <= whole.end;
 }
 
 StopPlan get_plan(BinaryReader& reader) {
@@ -112,6 +125,10 @@ StopPlan get_plan(BinaryReader& reader) {
     reader.damaged("the passes that it was to have are not valid");
   plan.seconds = get_optional(reader);
   plan.error = get_optional(reader);
+  for (uint32_t* number : {&plan.division.whole.begin, &plan.division.whole.end,
+                           &plan.division.parts})
+    *number = reader.get<uint32_t>();
+  if (!is_valid(plan.division, plan)) reader.damaged("the parts of its passes are not valid");
   return plan;
 }
 
@@ -174,50 +191,6 @@ RenderRecord get_record(BinaryReader& reader) {
   return record;
 }
 
-/// What tells two recipes apart, and how to make them alike; "" if nothing does.
-std::pair<std::string, std::string> difference(const RenderRecipe& a, const RenderRecipe& b) {
-  if (a.digest.scene != b.digest.scene)
-    return {"another scene, or one that was changed",
-            "render all parts of one scene file, with the same definitions and settings"};
-  if (a.digest.integrator != b.digest.integrator)
-    return {"another integrator, or other parameters of it",
-            "render all parts by the same integrator with the same settings"};
-  if (a.seed != b.seed)
-    return {fmt::format("seed {} instead of {}", b.seed, a.seed),
-            "render all parts with the same seed"};
-  if (a.samples_per_pass != b.samples_per_pass)
-    return {
-        fmt::format("{} samples per pass instead of {}", b.samples_per_pass, a.samples_per_pass),
-        "give the passes of all parts the same number of samples per pixel"};
-  if (a.lessons != b.lessons) return {"other lessons", "give all parts the same lessons, or none"};
-  return {};
-}
-
-/// From the first pass of either plan to the last pass of either.
-StopPlan merged_plan(const StopPlan& a, const StopPlan& b, const PassSet& passes) {
-  StopPlan plan;
-  plan.first_pass = std::min(a.first_pass, b.first_pass);
-  plan.passes = passes.ranges().back().end - plan.first_pass;
-  return plan;
-}
-
-/// A part of a second that sums of times are exact in, in whatever order they are added.
-double to_exact_part(double seconds) {
-  return std::ldexp(std::round(std::ldexp(seconds, 20)), -20);
-}
-
-/// All but the plan, of the part whose passes begin first: so the order of merging makes no
-/// difference. Parts that were to write different pictures leave open what the whole is to write.
-RenderRecord merged_record(RenderRecord first, const RenderRecord& other) {
-  if (first.outputs.files != other.outputs.files) first.outputs.files.clear();
-  first.seconds = to_exact_part(first.seconds) + to_exact_part(other.seconds);
-  return first;
-}
-
-}  // namespace
-
-namespace {
-
 void put_checkpoint(BinaryWriter& writer, const RenderRecord& record, const Film& film,
                     const Lessons& lessons) {
   writer.put_text(record.program);
@@ -249,79 +222,71 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
               "render the picture in parts by the film's crop window, or where there is more");
 }
 
-namespace {
+CheckpointReader::CheckpointReader(const std::string& path, FileCheck check)
+    : reader_(checkpoint_kind, path, check) {
+  read_head();
+}
 
-Checkpoint get_checkpoint(BinaryReader& reader) {
-  RenderRecord record = get_record(reader);
-  Lessons lessons = get_lessons(reader);
-  Checkpoint checkpoint{std::move(record), Film::read(reader), std::move(lessons)};
-  reader.expect_end();
-  if (checkpoint.record.recipe.lessons != 0 &&
-      checkpoint.record.recipe.lessons != digest_of(checkpoint.lessons))
-    reader.damaged("its lessons are not those of its passes");
-  const Film& film = checkpoint.film;
-  const PassSet& passes = film.passes();
-  if (!is_valid(checkpoint.record.view.frame, {film.width(), film.height()}))
-    reader.damaged("the frame of its picture is not valid");
-  if (passes.empty()) reader.damaged("it holds no pass");
-  if (film.samples_per_pixel() !=
-      uint64_t(film.pass_count()) * checkpoint.record.recipe.samples_per_pass)
-    reader.damaged("its passes do not have the samples that it tells");
+CheckpointReader::CheckpointReader(std::vector<uint8_t> bytes, const std::string& name)
+    : reader_(checkpoint_kind, std::move(bytes), name) {
+  read_head();
+}
+
+void CheckpointReader::read_head() {
+  record_ = get_record(reader_);
+  lessons_ = get_lessons(reader_);
+  film_head_ = Film::read_head(reader_);
+  const RenderRecipe& recipe = record_.recipe;
+  if (recipe.lessons != 0 && recipe.lessons != digest_of(lessons_))
+    reader_.damaged("its lessons are not those of its passes");
+  if (!is_valid(record_.view.frame, film_head_.size))
+    reader_.damaged("the frame of its picture is not valid");
+  const PassSet& passes = film_head_.passes;
+  if (passes.empty()) reader_.damaged("it holds no pass");
+  if (film_head_.samples_per_pixel != uint64_t(passes.count()) * recipe.samples_per_pass)
+    reader_.damaged("its passes do not have the samples that it tells");
+  if (record_.plan.first_pass >= passes.ranges().back().end)
+    reader_.damaged("its passes come before those that it was to have");
+}
+
+void CheckpointReader::check_regions(const Film& film) const {
   for (const FilmRegion& region : film.regions())
     if (region.film.samples_per_pixel() !=
-        uint64_t(region.film.pass_count()) * checkpoint.record.recipe.samples_per_pass)
-      reader.damaged("the passes of its regions do not have the samples that it tells");
-  if (checkpoint.record.plan.first_pass >= passes.ranges().back().end)
-    reader.damaged("its passes come before those that it was to have");
-  return checkpoint;
+        uint64_t(region.film.pass_count()) * record_.recipe.samples_per_pass)
+      reader_.damaged("the passes of its regions do not have the samples that it tells");
+}
+
+Film CheckpointReader::film() {
+  Film film = Film::read(film_head_, reader_);
+  reader_.expect_end();
+  check_regions(film);
+  return film;
+}
+
+PassSet CheckpointReader::add_film_to(Film& whole) {
+  const PassSet twice = whole.add(film_head_, reader_);
+  reader_.expect_end();
+  check_regions(whole);
+  return twice;
+}
+
+namespace {
+
+Checkpoint get_checkpoint(CheckpointReader&& reader) {
+  Film film = reader.film();
+  return {reader.record(), std::move(film), reader.lessons()};
 }
 
 }  // namespace
 
 Checkpoint read_checkpoint(const std::string& path) {
-  BinaryReader reader(checkpoint_kind, path);
-  return get_checkpoint(reader);
+  return get_checkpoint(CheckpointReader(path));
 }
 
 Checkpoint parse_checkpoint(std::vector<uint8_t> bytes, const std::string& name) {
-  BinaryReader reader(checkpoint_kind, std::move(bytes), name);
-  return get_checkpoint(reader);
+  return get_checkpoint(CheckpointReader(std::move(bytes), name));
 }
 
 bool is_checkpoint(const std::string& path) { return is_of_kind(checkpoint_kind, path); }
-
-void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Checkpoint& part,
-                      const std::string& path) {
-  const auto fail = [&](const std::string& message, const std::string& remedy) {
-    throw Error(ErrorKind::input, message, remedy, place_in(path));
-  };
-  const auto [what, remedy] = difference(whole.record.recipe, part.record.recipe);
-  if (!what.empty())
-    fail(fmt::format("this cannot be merged with '{}': it has {}", whole_path, what), remedy);
-  if (!whole.film.is_like(part.film))
-    fail(fmt::format("this cannot be merged with '{}': its picture has another size or other "
-                     "components",
-                     whole_path),
-         "render all parts of one scene file, with the same definitions and settings");
-  const PassSet twice = whole.film.passes().common(part.film.passes());
-  if (!twice.empty())
-    fail(fmt::format("of its passes {} were given before: {}", part.film.passes().text(),
-                     twice.text()),
-         "give each pass once: parts have passes of their own");
-  if (const PassSet regional = whole.film.twice_in_regions(part.film); !regional.empty())
-    fail(fmt::format("of the passes of its regions {} were given before, for the same pixels",
-                     regional.text()),
-         "ask for more samples in a region of one part alone");
-  const bool leads =
-      part.film.passes().ranges().front().begin < whole.film.passes().ranges().front().begin;
-  whole.film.add(part.film);
-  // Of as many passes they may have been written at different times: one order of them for all.
-  const auto order = [](const Lessons& lessons) { return std::tie(lessons.passes, lessons.bytes); };
-  if (order(whole.lessons) < order(part.lessons)) whole.lessons = part.lessons;
-  RenderRecord record =
-      merged_record(leads ? part.record : whole.record, leads ? whole.record : part.record);
-  record.plan = merged_plan(whole.record.plan, part.record.plan, whole.film.passes());
-  whole.record = std::move(record);
-}
 
 }  // namespace kaustik

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "kaustik/base/binary_file.h"
 #include "kaustik/render/film.h"
+#include "kaustik/render/pass_division.h"
 #include "kaustik/scene/description_digest.h"
 #include "kaustik/scene/overrides.h"
 #include "kaustik/transport/integrator.h"
@@ -37,6 +39,7 @@ struct StopPlan {
   uint32_t passes = 0;            ///< from the first on; 0: limited by time or error
   std::optional<double> seconds;  ///< of all sessions together
   std::optional<double> error;    ///< of the picture, Film::picture_error()
+  PassDivision division = {};     ///< of which these passes are one part or several
 };
 
 /// The image files that were asked for.
@@ -90,12 +93,31 @@ Checkpoint parse_checkpoint(std::vector<uint8_t> bytes, const std::string& name)
 /// Whether the file starts as checkpoints do. Throws Error(input) if it cannot be read.
 bool is_checkpoint(const std::string& path);
 
-/// The passes of both, in `whole`, with the record of the part whose passes begin first, so that
-/// the order of parts makes no difference; where they were to write different images, it names
-/// none. Of their lessons it keeps those of more passes. Throws Error(input), at `path`, where part
-/// and whole have a pass in common, or are of different scenes, integrators, settings, seeds or
-/// samples per pass. `whole_path` is for messages.
-void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Checkpoint& part,
-                      const std::string& path);
+/// A checkpoint's file, of which all but the film's sums is read at once. Throws as
+/// read_checkpoint() does, but if only its frame is checked nobody knows whether what it says is
+/// what was written.
+class CheckpointReader {
+ public:
+  explicit CheckpointReader(const std::string& path, FileCheck check = FileCheck::whole);
+  CheckpointReader(std::vector<uint8_t> bytes, const std::string& name);
+
+  const RenderRecord& record() const { return record_; }
+  const Lessons& lessons() const { return lessons_; }
+  const FilmHead& film_head() const { return film_head_; }
+
+  // The sums, once.
+  Film film();
+  /// Film::add().
+  PassSet add_film_to(Film& whole);
+
+ private:
+  void read_head();
+  void check_regions(const Film& film) const;
+
+  BinaryReader reader_;
+  RenderRecord record_;
+  Lessons lessons_;
+  FilmHead film_head_;
+};
 
 }  // namespace kaustik

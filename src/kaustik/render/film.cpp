@@ -249,13 +249,15 @@ void Film::add(const Film& other) {
     add_to(mean_luminances_[r], other.mean_luminances_[r]);
   passes_.add(other.passes_);
   sample_count_ += other.sample_count_;
-  for (const FilmRegion& region : other.regions_) {
-    const auto [at, is_there] = place_of(region.pixels);
-    if (is_there)
-      at->add(region);
-    else
-      regions_.insert(at, region);
-  }
+  for (const FilmRegion& region : other.regions_) add_region(region);
+}
+
+void Film::add_region(const FilmRegion& region) {
+  const auto [at, is_there] = place_of(region.pixels);
+  if (is_there)
+    at->add(region);
+  else
+    regions_.insert(at, region);
 }
 
 size_t Film::bytes() const {

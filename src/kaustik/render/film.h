@@ -72,6 +72,15 @@ struct FilmNumbers {
   size_t count = 0;
 };
 
+/// What a file tells of a film before its sums.
+struct FilmHead {
+  Vec2i size;
+  FilmLayers layers;
+  bool has_regions = false;
+  uint64_t samples_per_pixel = 0;
+  PassSet passes;
+};
+
 /// The picture as the sum of its finished passes and of their squares, in exact arithmetic: the
 /// same bits in whatever order the passes come, and whether they come one by one or as another
 /// film's sums. What only errors are computed from is rounded in each pass before it is summed:
@@ -146,6 +155,13 @@ class Film {
   /// The sums as part of a file, and back; reading throws as BinaryReader does.
   void write(BinaryWriter& writer) const;
   static Film read(BinaryReader& reader);
+  static FilmHead read_head(BinaryReader& reader);
+  /// The film whose head was just read.
+  static Film read(const FilmHead& head, BinaryReader& reader);
+  /// Adds the passes of the film whose head was just read, of this size and these layers, none of
+  /// them there yet; holds a row of tiles of it at a time, and its regions. Returns passes that
+  /// some pixel has in regions of both; if there are any, or it throws, this film is of no use.
+  PassSet add(const FilmHead& head, BinaryReader& reader);
 
   // Sums over all passes that pixels have.
   /// All sums of a tile's pixels: [place in the tile][number].
@@ -174,11 +190,13 @@ class Film {
   /// Calls body(sums) with all sums of each row of pixels, [x][number], from the top on.
   template <typename Body>
   void for_rows(const Body& body) const;
-  /// All after size and layers but regions.
-  void read_content(BinaryReader& reader);
-  void read_rows(BinaryReader& reader);
+  /// All after the head but regions.
+  void add_content(const FilmHead& head, BinaryReader& reader);
+  void add_rows(BinaryReader& reader);
+  void add_region(const FilmRegion& region);
   void write_regions(BinaryWriter& writer) const;
-  void read_regions(BinaryReader& reader);
+  /// Of a film of this size and these layers.
+  std::vector<FilmRegion> read_regions(BinaryReader& reader) const;
   /// Adds those of regions to the sums of a tile's pixels, [place][number].
   void add_regions(size_t tile, std::vector<Fixed>& sums) const;
   /// Where the region with these pixels is, or would be.

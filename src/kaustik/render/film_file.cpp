@@ -97,21 +97,42 @@ void Film::write(BinaryWriter& writer) const {
   if (!regions_.empty()) write_regions(writer);
 }
 
-Film Film::read(BinaryReader& reader) {
-  const Vec2i size = get_size(reader);
-  bool has_regions = false;
-  Film film(size, get_layers(reader, has_regions));
-  film.read_content(reader);
-  if (has_regions) film.read_regions(reader);
+Film Film::read(BinaryReader& reader) { return read(read_head(reader), reader); }
+
+Film Film::read(const FilmHead& head, BinaryReader& reader) {
+  Film film(head.size, head.layers);
+  film.add(head, reader);
   return film;
 }
 
-void Film::read_content(BinaryReader& reader) {
-  sample_count_ = reader.get<uint64_t>();
-  passes_ = get_passes(reader);
+FilmHead Film::read_head(BinaryReader& reader) {
+  FilmHead head;
+  head.size = get_size(reader);
+  head.layers = get_layers(reader, head.has_regions);
+  head.samples_per_pixel = reader.get<uint64_t>();
+  head.passes = get_passes(reader);
+  return head;
+}
+
+PassSet Film::add(const FilmHead& head, BinaryReader& reader) {
+  add_content(head, reader);
+  PassSet twice;
+  if (!head.has_regions) return twice;
+  for (const FilmRegion& region : read_regions(reader)) {
+    for (const FilmRegion& other : regions_)
+      if (other.pixels.meets(region.pixels))
+        twice.add(other.film.passes_.common(region.film.passes_));
+    if (twice.empty()) add_region(region);
+  }
+  return twice;
+}
+
+void Film::add_content(const FilmHead& head, BinaryReader& reader) {
   const std::vector<Fixed> replicates = get_sums(reader, replicate_count);
-  std::copy(replicates.begin(), replicates.end(), mean_luminances_.begin());
-  read_rows(reader);
+  add_rows(reader);
+  for (size_t r = 0; r < replicate_count; ++r) add_to(mean_luminances_[r], replicates[r]);
+  passes_.add(head.passes);
+  sample_count_ += head.samples_per_pixel;
 }
 
 void Film::write_regions(BinaryWriter& writer) const {
@@ -129,7 +150,8 @@ void Film::write_regions(BinaryWriter& writer) const {
   }
 }
 
-void Film::read_regions(BinaryReader& reader) {
+std::vector<FilmRegion> Film::read_regions(BinaryReader& reader) const {
+  std::vector<FilmRegion> regions;
   const uint64_t count = reader.get_count(sizeof(PixelRegion));
   for (uint64_t i = 0; i < count; ++i) {
     const auto x = reader.get<int32_t>(), y = reader.get<int32_t>();
@@ -146,26 +168,26 @@ void Film::read_regions(BinaryReader& reader) {
       ordered.add(order.passes);
     }
     // A film in this one has no regions: so none are nested without an end.
-    const Vec2i size = get_size(reader);
-    bool is_nested = false;
-    Film film(size, get_layers(reader, is_nested));
-    if (is_nested) reader.damaged("a region of it has regions");
-    film.read_content(reader);
-    const PixelRegion pixels{x, y, size.x, size.y};
-    const bool is_new = regions_.empty() || regions_.back().pixels < pixels;
+    const FilmHead head = read_head(reader);
+    if (head.has_regions) reader.damaged("a region of it has regions");
+    Film film(head.size, head.layers);
+    film.add_content(head, reader);
+    const PixelRegion pixels{x, y, head.size.x, head.size.y};
+    const bool is_new = regions.empty() || regions.back().pixels < pixels;
     if (!pixels.lies_in(size_) || !(film.layers_ == layers_) || !is_new)
       reader.damaged("a region of it is not valid");
     if (ordered.empty() || ordered.ranges() != film.passes_.ranges())
       reader.damaged("the passes of a region are not those that it was to have");
-    for (const FilmRegion& before : regions_)
+    for (const FilmRegion& before : regions)
       if (before.pixels.meets(pixels) && !before.film.passes_.common(film.passes_).empty())
         reader.damaged("two regions of it have the same pass for the same pixels");
-    regions_.push_back({pixels, std::move(film), std::move(orders)});
+    regions.push_back({pixels, std::move(film), std::move(orders)});
   }
-  if (regions_.empty()) reader.damaged("it has no regions, but says so");
+  if (regions.empty()) reader.damaged("it has no regions, but says so");
+  return regions;
 }
 
-void Film::read_rows(BinaryReader& reader) {
+void Film::add_rows(BinaryReader& reader) {
   reader.need(pixel_count() * numbers_.count, 1);
   sums_.resize(tiles_.count());
   const size_t across = tiles_.tile_at(0, PictureTiles::side);

@@ -188,13 +188,16 @@ void Job::make_session(Run& run) {
                      ? std::make_unique<Session>(*prepared.scene, *prepared.integrator, settings,
                                                  std::move(settings_.begun->film))
                      : std::make_unique<Session>(*prepared.scene, *prepared.integrator, settings);
+  if (settings_.begun) check_same_passes(*session, *settings_.begun, settings_.begun_path);
   settings_.begun.reset();
   RenderRecord& record = result_.record;
   record = settings_.record;
   record.recipe.samples_per_pass = session->samples_per_pass();
   if (settings_.learned) record.recipe.lessons = digest_of(settings_.learned->lessons);
   if (prepared.digest) record.recipe.digest = *prepared.digest;
+  record.plan.first_pass = session->first_pass();
   record.plan.passes = session->planned_passes();
+  if (settings.part) record.plan.division = session->division();
   record.view = prepared.view;
   const std::lock_guard lock(mutex_);
   run.record = record;

@@ -29,6 +29,13 @@ bool lies_below(const std::optional<fs::path>& file, const std::optional<fs::pat
              folder->end();
 }
 
+/// "the part from pass 48 on of 64 passes in 4 parts", "passes that are not divided"
+std::string text_of(uint32_t first_pass, const PassDivision& division) {
+  if (!division.is_divided()) return "passes that are not divided into parts";
+  return fmt::format("the part from pass {} on of {} passes in {} parts", first_pass,
+                     division.whole.end - division.whole.begin, division.parts);
+}
+
 }  // namespace
 
 SessionSettings settings_to_go_on(const Checkpoint& checkpoint) {
@@ -63,6 +70,24 @@ void check_same_scene(const PreparedScene& prepared, const Checkpoint& checkpoin
                   "were rendered",
                   recipe.scene, checkpoint.film.passes().text()),
       "bring back the scene as it was, or render the new one from the start", place_in(path));
+}
+
+void check_same_passes(const Session& session, const Checkpoint& checkpoint,
+                       const std::string& path) {
+  const RenderRecord& record = checkpoint.record;
+  const auto fail = [&](const std::string& message) {
+    throw Error(ErrorKind::input, message,
+                "ask for the same passes and samples as before, or for another checkpoint",
+                place_in(path));
+  };
+  if (session.samples_per_pass() != record.recipe.samples_per_pass)
+    fail(fmt::format("its passes have {} samples per pixel, those that are asked for have {}",
+                     record.recipe.samples_per_pass, session.samples_per_pass()));
+  const PassDivision &asked = session.division(), &there = record.plan.division;
+  if (!asked.is_divided()) return;
+  if (asked != there || session.first_pass() != record.plan.first_pass)
+    fail(fmt::format("it is of {}, not of {}", text_of(record.plan.first_pass, there),
+                     text_of(session.first_pass(), asked)));
 }
 
 std::vector<std::string> files_outside_its_folder(const std::vector<std::string>& files,

@@ -16,6 +16,11 @@ SessionSettings settings_to_go_on(const Checkpoint& checkpoint);
 void check_same_scene(const PreparedScene& prepared, const Checkpoint& checkpoint,
                       const std::string& path);
 
+/// Throws Error(input), at `path`, if the session's passes have other numbers of samples than those
+/// of the checkpoint, or are another part: they would not be what was asked for when it began.
+void check_same_passes(const Session& session, const Checkpoint& checkpoint,
+                       const std::string& path);
+
 /// Those that lie neither in nor below the folder that `checkpoint` lies in, as links have it. A
 /// checkpoint may come from anybody, so what it names is not to be written anywhere.
 std::vector<std::string> files_outside_its_folder(const std::vector<std::string>& files,

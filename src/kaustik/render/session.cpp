@@ -76,6 +76,22 @@ uint32_t Session::samples_by_time() const {
 }
 
 void Session::plan() {
+  plan_picture();
+  if (settings_.part) take_part(*settings_.part);
+}
+
+void Session::take_part(const PassPart& part) {
+  if (pass_count_ < part.count)
+    throw Error(ErrorKind::input,
+                fmt::format("{} passes cannot be divided into {} parts", pass_count_, part.count),
+                "ask for fewer parts, or for more passes");
+  division_ = {planned(), part.count};
+  const PassRange own = division_.part(part.index);
+  settings_.first_pass = own.begin;
+  pass_count_ = own.end - own.begin;
+}
+
+void Session::plan_picture() {
   const uint32_t by_integrator = integrator_.traits().default_samples_per_pass;
   if (settings_.is_endless) {
     samples_per_pass_ = settings_.samples_per_pass.value_or(by_integrator);
@@ -83,7 +99,8 @@ void Session::plan() {
     return;
   }
   std::optional<uint32_t> samples = settings_.samples_per_pixel;
-  const bool is_open = settings_.seconds || settings_.error;  // else passes alone end it
+  // Else passes alone end it.
+  const bool is_open = !settings_.part && (settings_.seconds || settings_.error);
   if (!samples && !is_open && scene_.film().sample_count > 0)
     samples = uint32_t(scene_.film().sample_count);
   if (settings_.samples_per_pass) {
@@ -104,7 +121,8 @@ void Session::plan() {
     samples_per_pass_ = divided_up(*samples, std::max(1u, pass_count_));
     if (!settings_.passes) pass_count_ = divided_up(*samples, samples_per_pass_);
   } else {
-    samples_per_pass_ = settings_.seconds && !settings_.passes ? samples_by_time() : by_integrator;
+    const bool is_by_time = is_open && settings_.seconds && !settings_.passes;
+    samples_per_pass_ = is_by_time ? samples_by_time() : by_integrator;
     pass_count_ = settings_.passes.value_or(is_open ? 0 : default_passes);
   }
 }

@@ -10,6 +10,7 @@
 
 #include "kaustik/render/film.h"
 #include "kaustik/render/gate.h"
+#include "kaustik/render/pass_division.h"
 #include "kaustik/transport/integrator.h"
 
 namespace kaustik {
@@ -38,6 +39,9 @@ struct SessionSettings {
   /// How many from the first on, those that the film begins with included; absent: see
   /// `samples_per_pixel` and `seconds`.
   std::optional<uint32_t> passes;
+  /// Of the passes that are planned for the picture, from the first on, only this part. Limits of
+  /// time and error then change nothing of what is planned.
+  std::optional<PassPart> part;
   /// Passes go on until something else ends them, whatever the scene says of samples, with the
   /// integrator's default samples each. Then `passes` and `samples_per_pixel` have no meaning.
   bool is_endless = false;
@@ -132,7 +136,8 @@ struct SessionReport {
 /// kept with the film: so the same requests after the same passes have the same bits.
 class Session {
  public:
-  /// The scene and the integrator must outlive the session. Throws Error for a picture too large.
+  /// The scene and the integrator must outlive the session. Throws Error for a picture too large,
+  /// and for more parts than passes.
   Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings);
   /// Goes on with `begun`, which must be of this scene's size and this integrator's components.
   Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings,
@@ -178,8 +183,12 @@ class Session {
 
   const Film& film() const { return film_; }
   uint32_t samples_per_pass() const { return samples_per_pass_; }
+  /// Of the session, or of its part.
+  uint32_t first_pass() const { return settings_.first_pass; }
   /// How many passes from the first on are planned; 0: limited by time or error.
   uint32_t planned_passes() const { return pass_count_; }
+  /// What the session's part is of; not divided if it has none.
+  const PassDivision& division() const { return division_; }
 
  private:
   class Monitor;
@@ -199,6 +208,9 @@ class Session {
   };
   enum class PassEnd { complete, incomplete, discarded };
   void plan();
+  void plan_picture();
+  /// Leaves of the plan what is the part's.
+  void take_part(const PassPart& part);
   /// Of a pass of a plan that does not say how many passes there are.
   uint32_t most_samples_per_pass() const;
   /// Of a plan that says nothing but how much time there is.
@@ -260,6 +272,7 @@ class Session {
   std::vector<uint8_t> is_finished_;  ///< by tile
   uint32_t pass_count_ = 0;           ///< 0: limited by time or error
   uint32_t samples_per_pass_ = 1;
+  PassDivision division_;
   SessionReport report_;
   uint32_t part_replicate_ = 0;  ///< of the pass that SessionReport::part is of
 
