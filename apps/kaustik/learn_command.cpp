@@ -106,7 +106,7 @@ void add_learn(CLI::App& program) {
   takes_words(
       command->add_option("--integrator", o->recipe.integrator,
                           "Use this method instead of the file's: auto, vcm, ppm, bdpt learn"),
-      {"auto", "vcm", "ppm", "bdpt"}, "METHOD");
+      learning_integrators(), "METHOD");
   command->add_option("--passes", o->passes, "Number of passes to learn from, up to 256 [16]")
       ->check(whole_number(1, 256));
   command

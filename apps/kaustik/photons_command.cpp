@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "commands.h"
 #include "console.h"
 #include "events.h"
 #include "file_roles.h"
 #include "kaustik/scene/scene.h"
 #include "option_values.h"
+#include "part_option.h"
 #include "progress_options.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -31,21 +30,10 @@ struct PhotonsOptions {
   ProgressOptions progress;
 };
 
-/// "2/4": part 2 of 4.
-PhotonPart parse_part(const std::string& text) {
-  if (text.empty()) return {};
-  uint32_t number = 0, count = 0;
-  const char* const end = text.data() + text.size();
-  const auto [slash, code] = std::from_chars(text.data(), end, number);
-  if (code == std::errc{} && slash != end && *slash == '/') {
-    const auto [last, second_code] = std::from_chars(slash + 1, end, count);
-    if (second_code == std::errc{} && last == end && number >= 1 && number <= count &&
-        count <= PhotonPart::maximum_count)
-      return {number - 1, count};
-  }
-  throw Error(ErrorKind::input, fmt::format("cannot read the part '{}'", text),
-              "write the number of the part and how many there are: --part 2/4",
-              place_in("command line: --part"));
+PhotonPart part_of(const PhotonsOptions& options) {
+  if (options.part.empty()) return {};
+  const PartNumber part = parse_part(options.part, PhotonPart::maximum_count);
+  return {part.index, part.count};
 }
 
 std::string light_name(const Scene& scene, size_t light) {
@@ -78,7 +66,7 @@ void print_map(const char* name, const Scene& scene, const PhotonMap& map,
 }
 
 void trace_photons(PhotonsOptions options) {
-  const PhotonPart part = parse_part(options.part);
+  const PhotonPart part = part_of(options);
   RenderRecipe& recipe = options.recipe;
   FileRoles roles;
   roles.reads_scene(recipe.scene);

@@ -60,6 +60,7 @@ JsonObject picture_facts(const Image& image, PictureState state) {
 
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
                     Failures& failures, PictureState state, const std::function<Image()>& picture) {
+  if (record.outputs.files.empty()) return;
   WriteOptions write;
   Image image;
   bool is_made = false;

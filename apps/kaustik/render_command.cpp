@@ -1,24 +1,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <filesystem>
-#include <limits>
 #include <optional>
 
+#include "begun_render.h"
 #include "commands.h"
 #include "file_roles.h"
+#include "kaustik/base/file.h"
 #include "kaustik/base/version.h"
 #include "kaustik/image/tone_mapping.h"
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/render/program_version.h"
 #include "numbers.h"
 #include "option_values.h"
+#include "part_option.h"
 #include "picture_output.h"
 #include "progress_options.h"
 #include "render_job.h"
 #include "scene_options.h"
+#include "screen.h"
 #include "standard_streams.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
@@ -31,7 +33,7 @@ struct RenderOptions {
   RenderRecipe recipe;
   OutputPlan outputs;
   std::vector<std::string> definitions, settings;
-  std::optional<std::string> time, error, checkpoint, learned;
+  std::optional<std::string> time, error, checkpoint, learned, part;
   std::string every = "30s";
   std::optional<uint32_t> passes, spp;
   uint32_t first_pass = 0;
@@ -39,7 +41,7 @@ struct RenderOptions {
   BuildOptions build;
   int threads = 0;
   std::optional<double> exposure;
-  bool force = false;
+  bool force = false, resume_if_there = false;
   ProgressOptions progress;
   ViewOptions views;
 };
@@ -57,6 +59,68 @@ void sort_settings(RenderOptions& options) {
     options.outputs.tone_settings.push_back(fmt::format("exposure={}", *options.exposure));
 }
 
+/// Without a name for the picture: the scene's. Parts make none, since all would write the same
+/// file.
+void name_picture(RenderOptions& options) {
+  if (!options.outputs.files.empty() || options.part) return;
+  const std::string& scene = options.recipe.scene;
+  if (is_standard_stream(scene))
+    throw Error(ErrorKind::input, "a scene from standard input gives its picture no name",
+                "say what to write: -o FILE");
+  options.outputs.files.push_back(std::filesystem::path(scene).stem().string() + ".exr");
+}
+
+/// Whether there is one to go on with.
+bool check_checkpoint(const RenderOptions& options, FileRoles& roles) {
+  if (!options.checkpoint) return false;
+  const std::string& path = *options.checkpoint;
+  if (options.resume_if_there && is_begun(path)) {
+    roles.reads(path);
+    check_output_path(path);
+    return true;
+  }
+  roles.writes(path, {"a checkpoint", is_checkpoint},
+               options.force ? Replacing::anything : Replacing::nothing,
+               fmt::format("go on with it: kaustik resume {}, or --resume-if-there", path));
+  return false;
+}
+
+SessionSettings session_settings(const RenderOptions& options) {
+  SessionSettings settings;
+  settings.seed = options.recipe.seed;
+  settings.first_pass = options.first_pass;
+  settings.passes = options.passes;
+  settings.samples_per_pixel = options.spp;
+  if (options.part) {
+    const PartNumber part = parse_part(*options.part, PassPart::maximum_count);
+    settings.part = PassPart{part.index, part.count};
+  }
+  if (options.time) settings.seconds = parse_duration(*options.time, "--time");
+  if (options.error) settings.error = parse_error_bound(*options.error);
+  // Who goes on from a checkpoint may ask for other pictures.
+  settings.layers = options.checkpoint.has_value() || needs_layers(options.outputs);
+  return settings;
+}
+
+/// Time ends a part early; it is no goal of its own.
+StopPlan stop_plan(const SessionSettings& session) {
+  StopPlan plan{session.first_pass, 0, session.seconds, session.error};
+  if (session.part) plan.seconds.reset();
+  return plan;
+}
+
+/// A part has to know what all passes before it teach, as other parts have.
+void tell_of_learning(const std::optional<Object>& integrator, const RenderOptions& options) {
+  if (!options.part || options.learned || options.progress.quiet) return;
+  const std::string type = integrator ? native_type(*integrator) : default_integrator;
+  const auto& learning = learning_integrators();
+  if (std::find(learning.begin(), learning.end(), type) != learning.end())
+    note(
+        fmt::format("{}: each part learns for itself, from the passes before it, too. To learn "
+                    "once for all parts: kaustik learn, then --learned",
+                    type));
+}
+
 void render(RenderOptions options) {
   JobSettings job;
   RenderRecipe& recipe = options.recipe;
@@ -69,27 +133,11 @@ void render(RenderOptions options) {
     job.learned_path = *options.learned;
     check_program(*options.learned, job.learned->program, KAUSTIK_VERSION);
   }
-  if (options.outputs.files.empty() && is_standard_stream(recipe.scene))
-    throw Error(ErrorKind::input, "a scene from standard input gives its picture no name",
-                "say what to write: -o FILE");
-  if (options.outputs.files.empty())
-    options.outputs.files.push_back(std::filesystem::path(recipe.scene).stem().string() + ".exr");
+  name_picture(options);
   sort_settings(options);
   check_outputs(options.outputs, roles);
-  if (options.checkpoint)
-    roles.writes(*options.checkpoint, {"a checkpoint", is_checkpoint},
-                 options.force ? Replacing::anything : Replacing::nothing,
-                 fmt::format("go on with it: kaustik resume {}", *options.checkpoint));
-  SessionSettings& settings = job.session;
-  settings.seed = recipe.seed;
-  settings.threads = usable_threads(options.threads, options.progress.quiet);
-  settings.first_pass = options.first_pass;
-  settings.passes = options.passes;
-  settings.samples_per_pixel = options.spp;
-  if (options.time) settings.seconds = parse_duration(*options.time, "--time");
-  if (options.error) settings.error = parse_error_bound(*options.error);
-  // Who goes on from a checkpoint may ask for other pictures.
-  settings.layers = options.checkpoint.has_value() || needs_layers(options.outputs);
+  const bool goes_on = check_checkpoint(options, roles);
+  job.session = session_settings(options);
   job.checkpoint = options.checkpoint.value_or("");
   job.every_s = parse_duration(options.every, "--every");
   job.build = options.build;
@@ -97,6 +145,7 @@ void render(RenderOptions options) {
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
   begin_events(options.progress, roles, "render", recipe.scene);
+  job.session.threads = usable_threads(options.threads, options.progress.quiet);
   Description description = load_description(recipe);
   roles.reads(description);
   roles.check();
@@ -106,69 +155,23 @@ void render(RenderOptions options) {
     recipe.integrator = "photonmap";
   recipe.settings =
       collected_settings(integrator_of(description, recipe), options.levels, options.settings);
+  tell_of_learning(integrator_of(description, recipe), options);
   job.integrator_origin = integrator_origin;
   RenderRecord& record = job.record;
   record.program = KAUSTIK_VERSION;
   record.recipe = recipe;
-  record.plan = {options.first_pass, 0, settings.seconds, settings.error};
+  record.plan = stop_plan(job.session);
   record.outputs = options.outputs;
+  if (goes_on) {
+    go_on_with(*options.checkpoint, job);
+    if (!options.progress.quiet)
+      say("{} goes on: passes {} are there", *options.checkpoint, job.begun->film.passes().text());
+  }
   run_job(std::move(description), std::move(job),
           {progress_style(options.progress), options.progress.quiet, options.views});
 }
 
 }  // namespace
-
-double parse_duration(const std::string& text, const std::string& option) {
-  // Longer ones would leave the range of clocks.
-  constexpr double longest_s = 1e9;
-  const auto fail = [&] {
-    throw Error(ErrorKind::input, fmt::format("cannot read the time '{}'", text),
-                "write a positive number of seconds (60s), minutes (5m), hours (1h), or 1h30m, up "
-                "to 30 years",
-                place_in("command line: " + option));
-  };
-  double seconds = 0, last_unit = std::numeric_limits<double>::infinity();
-  const char *at = text.data(), *const last = text.data() + text.size();
-  do {
-    double value = 0;
-    const auto [end, code] = std::from_chars(at, last, value, std::chars_format::fixed);
-    const char* const next = std::find_if(end, last, [](char c) { return !std::isalpha(c); });
-    const std::string name(end, next);
-    const double unit = name == "s" || (name.empty() && at == text.data() && end == last) ? 1
-                        : name == "m" || name == "min"                                    ? 60
-                        : name == "h"                                                     ? 3600
-                                                                                          : 0;
-    if (code != std::errc{} || unit == 0 || !(unit < last_unit) || !(value >= 0)) fail();
-    seconds += value * unit;
-    last_unit = unit;
-    at = next;
-  } while (at != last);
-  if (!(seconds > 0) || !(seconds <= longest_s)) fail();
-  return seconds;
-}
-
-double parse_error_bound(const std::string& text) {
-  double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const std::string unit(end, text.data() + text.size());
-  if (code != std::errc{} || (unit != "%" && unit != " %") || !(value > 0) || !std::isfinite(value))
-    throw Error(ErrorKind::input, fmt::format("cannot read the error '{}'", text),
-                "write a positive number of percent: 2%", place_in("command line: --error"));
-  return value / 100;
-}
-
-std::vector<std::pair<std::string, std::string>> parse_definitions(
-    const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> definitions;
-  for (const std::string& text : texts) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw Error(ErrorKind::input, fmt::format("cannot read the definition '{}'", text),
-                  "write -D name=value", place_in("command line: -D"));
-    definitions.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return definitions;
-}
 
 void add_render(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to image files.");
@@ -177,7 +180,8 @@ void add_render(CLI::App& program) {
       "a second one ends the program at once. In the first pass a picture of fewer samples is "
       "written, or nothing as long as not every pixel has one. SIGUSR1 writes the picture as it "
       "is, "
-      "and the render goes on.\n"
+      "and the render goes on. A part that --time ends before all its passes are there has exit "
+      "code 75, too.\n"
       "Lines of JSON have an \"event\": start, progress, written, message, end. By --progress json "
       "they go to standard error, and all messages with them; by --progress-file elsewhere, and "
       "messages stay text.\n"
@@ -212,10 +216,11 @@ void add_render(CLI::App& program) {
       ->add_option("--spp", options->spp,
                    "Samples per pixel over all passes (many make many passes)")
       ->check(whole_number(1, 1 << 30));
-  takes(command->add_option("--error", options->error,
-                            "Stop when the picture's relative error is at most this: 2% (looked at "
-                            "after 16, 32, 64, … passes)"),
-        "PERCENT");
+  auto* error = takes(
+      command->add_option("--error", options->error,
+                          "Stop when the picture's relative error is at most this: 2% (looked at "
+                          "after 16, 32, 64, … passes)"),
+      "PERCENT");
   command
       ->add_option("--first-pass", options->first_pass,
                    "Number of the first pass; --passes and --spp count from it [0]")
@@ -228,8 +233,21 @@ void add_render(CLI::App& program) {
                       "--checkpoint", options->checkpoint,
                       "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge"),
                   {"kpt"});
-  command->add_flag("--force", options->force, "Replace a checkpoint that is there already")
-      ->needs(checkpoint);
+  auto* force =
+      command->add_flag("--force", options->force, "Replace a checkpoint that is there already")
+          ->needs(checkpoint);
+  command
+      ->add_flag("--resume-if-there", options->resume_if_there,
+                 "Go on with the checkpoint if it is there, for commands that are repeated until "
+                 "they are done")
+      ->needs(checkpoint)
+      ->excludes(force);
+  command
+      ->add_option("--part", options->part,
+                   "Of the passes that --passes and --spp tell only part I of N, for kaustik merge")
+      ->type_name("I/N")
+      ->needs(checkpoint)
+      ->excludes(error);
   takes(
       command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
           ->needs(checkpoint),

@@ -48,11 +48,33 @@ Image first_look(const Job& job) {
 void tell_of_result(const JobResult& result, const Job& job, const SessionSettings& settings,
                     bool quiet) {
   const SessionReport& report = result.report;
+  if (!quiet) tell_of_part(result.record.plan, job.film());
   if (!quiet && report.passes > 0) print_errors(job.film());
   for (const std::string& decision : report.decisions)
     if (!quiet) note(decision);
   if (!quiet) tell_of_first_seconds(result.record.view.integrator, settings.seconds);
   for (const std::string& warning : report.warnings) warn(warning);
+}
+
+/// Of a part: what there is of it.
+void tell_of_part(const StopPlan& plan, const Film& film) {
+  const PassDivision& division = plan.division;
+  for (uint32_t i = 0; i < division.parts; ++i)
+    if (division.part(i) == PassRange{plan.first_pass, plan.first_pass + plan.passes})
+      say("part {} of {}: passes {}", i + 1, division.parts, film.passes().text());
+}
+
+/// Parts have to be complete: time is no goal of theirs.
+void check_part_is_complete(const StopPlan& plan, const Film& film) {
+  if (!plan.division.is_divided()) return;
+  const PassRange own{plan.first_pass, plan.first_pass + plan.passes};
+  const uint32_t missing = film.passes().missing(own);
+  if (missing == 0) return;
+  warn(
+      fmt::format("the time was over before the part was complete: {} of its {} passes are "
+                  "missing\n  remedy: repeat the command with --resume-if-there, or kaustik resume",
+                  missing, plan.passes));
+  throw EndedEarly{};
 }
 
 /// What viewers call the picture: as its first file.
@@ -180,6 +202,7 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
   watch.finish_viewers();
   failures.throw_if_any();
   if (report.cancelled()) throw EndedEarly{};
+  check_part_is_complete(result.record.plan, job.film());
 }
 
 }  // namespace kaustik::app

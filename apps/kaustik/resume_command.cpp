@@ -50,10 +50,10 @@ void check_scene_is_there(const RenderRecipe& recipe, const std::string& checkpo
 }
 
 /// The checkpoint may come from anybody: what it names is written in and below its own folder only,
-/// and what it lies in, as links have it.
-void check_outputs_are_near(const std::vector<std::string>& outputs,
-                            const std::string& checkpoint) {
-  if (outputs.empty())
+/// and what it lies in, as links have it. Only parts need name none.
+void check_outputs_are_near(const std::vector<std::string>& outputs, const std::string& checkpoint,
+                            bool is_part) {
+  if (outputs.empty() && !is_part)
     throw Error(ErrorKind::input, "it names no picture to write", "say what to write: -o FILE",
                 place_in(checkpoint));
   std::vector<std::string> files = outputs, far;
@@ -99,7 +99,9 @@ SessionSettings session_settings(const ResumeOptions& options, const Limits& lim
   SessionSettings settings = settings_to_go_on(checkpoint);
   settings.threads = usable_threads(options.threads, options.progress.quiet);
   if (!options.passes && !options.spp && !limits.seconds && !limits.error) return settings;
-  settings.passes = options.passes;
+  const bool is_part = checkpoint.record.plan.division.is_divided();
+  // A part's passes are its own whatever the time.
+  if (!is_part || options.passes || options.spp) settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
   settings.seconds = limits.seconds;
   settings.error = limits.error;
@@ -118,7 +120,8 @@ void resume(const ResumeOptions& options) {
   RenderRecord& record = checkpoint.record;
   if (!options.scene.empty()) record.recipe.scene = options.scene;
   if (options.outputs.empty())
-    check_outputs_are_near(record.outputs.files, options.checkpoint);
+    check_outputs_are_near(record.outputs.files, options.checkpoint,
+                           record.plan.division.is_divided());
   else
     record.outputs.files = options.outputs;
   roles.reads_scene(record.recipe.scene);
@@ -130,10 +133,12 @@ void resume(const ResumeOptions& options) {
   roles.check();
   begin_event_file(options.progress, roles, "resume", record.recipe.scene);
   job.session = session_settings(options, limits, checkpoint);
+  // With other passes it is no part any more.
+  if (options.passes || options.spp) record.plan.division = {};
   record.plan.error = job.session.error;
   if (!job.session.seconds)
     record.plan.seconds.reset();
-  else if (options.time)
+  else if (options.time && !record.plan.division.is_divided())
     record.plan.seconds = record.seconds + *job.session.seconds;
   job.record = record;
   job.integrator_origin = integrator_origin;

@@ -30,7 +30,9 @@ void check_scene_name(const std::string& output) {
 }
 
 void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads; 0: as many as the process may run at a time [0]")->check(whole_number(0, 4096));
+  command
+      .add_option("--threads", threads, "Threads; 0: as many as the process may run at a time [0]")
+      ->check(whole_number(0, 4096));
 }
 
 void add_definitions(CLI::App& command, std::vector<std::string>& definitions) {
@@ -60,6 +62,11 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings,
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
   for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
+  return names;
+}
+
+const std::vector<std::string>& learning_integrators() {
+  static const std::vector<std::string> names{"auto", "vcm", "ppm", "bdpt"};
   return names;
 }
 

@@ -28,5 +28,7 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings,
 inline constexpr const char* integrator_origin = "command line: --integrator";
 /// Kaustik's own, for --integrator.
 std::vector<std::string> integrator_names();
+/// Those of them that learn from their passes.
+const std::vector<std::string>& learning_integrators();
 
 }  // namespace kaustik::app

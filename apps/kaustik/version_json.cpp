@@ -1,5 +1,5 @@
-#include "kaustik/base/processors.h"
 #include "version_json.h"
+#include "kaustik/base/processors.h"
 
 #include <vector>
 
