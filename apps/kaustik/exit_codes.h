@@ -19,7 +19,7 @@ const std::vector<ExitCode>& exit_codes();
 /// The same in lines.
 std::string exit_code_text();
 
-/// Thrown when all that can be written is written, but a signal came before all was done.
+/// Thrown when all that can be written is written, but the command ended early.
 struct EndedEarly {};
 
 }  // namespace kaustik::app

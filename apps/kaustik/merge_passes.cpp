@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "failures.h"
@@ -33,7 +34,10 @@ void tell_of_missing_parts(const MergedPasses& merged, bool makes_images, bool m
     throw Error(ErrorKind::input, text,
                 "render them: kaustik render --part I/N; or make the picture of what is there: "
                 "--incomplete");
-  makes_images ? warn(text + ": the picture is of the others") : note(text);
+  if (makes_images)
+    warn(text + ": the picture is of the others");
+  else
+    note(text);
 }
 
 /// Of one file after the other, so that one film is in memory. Those that can't be read are told

@@ -207,6 +207,12 @@ TEST_F(CheckpointFile, PassesInPartsAreThoseOfOneRun) {
       for (size_t i = 1; i < order.size(); ++i)
         merge_checkpoint(sum, order[0], read_checkpoint(path(order[i])), order[i]);
       expect_same_bits(sum.film, whole);
+      // Row by row, too.
+      Checkpoint by_rows = read_checkpoint(path(order[0]));
+      for (size_t i = 1; i < order.size(); ++i)
+        merge_checkpoint_file(by_rows, order[0], path(order[i]));
+      EXPECT_EQ(checkpoint_bytes(by_rows.record, by_rows.film, by_rows.lessons),
+                checkpoint_bytes(sum.record, sum.film, sum.lessons));
     }
   }
 }

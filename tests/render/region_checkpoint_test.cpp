@@ -77,6 +77,11 @@ TEST(Regions, PartsAreMergedInAnyOrder) {
   merge_checkpoint(ab, "a.kpt", {record_for(2, 2), b, {}}, "b.kpt");
   merge_checkpoint(ba, "b.kpt", {record_for(2), a, {}}, "a.kpt");
   EXPECT_EQ(film_bytes(ab.film), film_bytes(ba.film));
+  const TemporaryFolder folder;
+  write_checkpoint(folder.path("b.kpt"), record_for(2, 2), b);
+  Checkpoint by_rows{record_for(2), a, {}};
+  merge_checkpoint_file(by_rows, "a.kpt", folder.path("b.kpt"));
+  EXPECT_EQ(film_bytes(by_rows.film), film_bytes(ab.film));
   ASSERT_EQ(ab.film.regions().size(), 2u);
   EXPECT_TRUE(ab.film.regions()[0].pixels == elsewhere);
   const Image merged = ab.film.image(), expected = plain.image();
@@ -99,12 +104,16 @@ TEST(Regions, PartsAreMergedInAnyOrder) {
   const Film again = refined_film(*integrator, refined_settings(2, {{{10, 15, 3, 3}, 3}}, 2));
   Checkpoint twice{record_for(2), a, {}};
   ASSERT_EQ(a.twice_in_regions(again).count(), 2u);
-  try {
-    merge_checkpoint(twice, "a.kpt", {record_for(2, 2), again, {}}, "c.kpt");
-    FAIL() << "passes of regions came twice";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("given before"), std::string::npos) << error.what();
-  }
+  write_checkpoint(folder.path("c.kpt"), record_for(2, 2), again);
+  for (const bool is_file : {false, true}) try {
+      if (is_file)
+        merge_checkpoint_file(twice, "a.kpt", folder.path("c.kpt"));
+      else
+        merge_checkpoint(twice, "a.kpt", {record_for(2, 2), again, {}}, "c.kpt");
+      ADD_FAILURE() << "passes of regions came twice";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("given before"), std::string::npos) << error.what();
+    }
 }
 
 TEST(Regions, DamagedFilesAreRefused) {
