@@ -7,8 +7,8 @@ namespace kaustik::app {
 // What the program ends with.
 inline constexpr int exit_system = 1;  ///< the machine failed
 inline constexpr int exit_input = 2;   ///< something is wrong with what the user gave
-inline constexpr int exit_ended_early =
-    75;  ///< a signal, or the end of a part's time, came before all was done
+/// A signal came before all was done, or the end of its time before a part was.
+inline constexpr int exit_ended_early = 75;
 
 struct ExitCode {
   std::string code;  ///< "75", "128+n"
