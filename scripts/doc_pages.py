@@ -9,7 +9,8 @@ import unicodedata
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md", "tests/**/*.md")
+PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md", "contrib/**/*.md",
+         "tests/**/*.md")
 # Written by commands: docs/developer/benchmarks.md says by which.
 RESULT_PAGES = {"docs/comparisons.md", "docs/ablation.md", "docs/sensitivity.md", "docs/gallery.md", "docs/thesis/results.md",
                 "docs/thesis/walkthrough.md", "docs/scenes.md"}

@@ -30,7 +30,8 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md", "tests/**/*.md")
+PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md", "contrib/**/*.md",
+         "tests/**/*.md")
 SIZE = 24  # of pictures
 MOST_PASSES = 2
 MOST_SECONDS = 0.2
