@@ -128,8 +128,7 @@ SeedResult render(const Setup& setup, const std::string& integrator, uint64_t se
 Found measure(const std::string& scene, const std::string& integrator, double seconds) {
   // Learning belongs to a seed, so each thread has its own.
   std::vector<Setup> setups;
-  for (int i = 0; i < usable_processors(); ++i)
-    setups.emplace_back(scene, integrator);
+  for (int i = 0; i < usable_processors(); ++i) setups.emplace_back(scene, integrator);
   std::vector<SeedResult> of_seeds(seeds);
   std::atomic<uint64_t> next{0};
   const auto work = [&](const Setup& setup) {

@@ -63,8 +63,7 @@ class Stopwatch {
  public:
   Clock::time_point start() const { return start_; }
   Moment now() const {
-    return {seconds_since(start_),
-            (processor_seconds() - processor_before_) / usable_processors()};
+    return {seconds_since(start_), (processor_seconds() - processor_before_) / usable_processors()};
   }
 
  private:

@@ -74,7 +74,7 @@ struct FilmNumbers {
 
 /// What a file tells of a film before its sums.
 struct FilmHead {
-  Vec2i size;
+  Vec2i size{0, 0};
   FilmLayers layers;
   bool has_regions = false;
   uint64_t samples_per_pixel = 0;
