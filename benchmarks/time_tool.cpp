@@ -63,12 +63,13 @@ class Stopwatch {
  public:
   Clock::time_point start() const { return start_; }
   Moment now() const {
-    return {seconds_since(start_), (processor_seconds() - processor_before_) / usable_processors()};
+    return {seconds_since(start_), (processor_seconds() - processor_before_) / processors_};
   }
 
  private:
   Clock::time_point start_ = Clock::now();
   double processor_before_ = processor_seconds();
+  int processors_ = usable_processors();
 };
 
 std::string text_of(const std::optional<Moment>& moment) {
