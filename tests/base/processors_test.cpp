@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/thread_limit.h"
 
 namespace kaustik {
 namespace {

@@ -8,6 +8,7 @@
 #include "kaustik/base/checksum.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
+#include "kaustik/base/running_checksum.h"
 
 namespace kaustik {
 namespace {
@@ -106,7 +107,7 @@ uint64_t BinaryReader::stored_checksum() const {
 uint64_t BinaryReader::checksum_of_content() const {
   const uint64_t content = size_ - checksum_size;
   if (!file_) return checksum(std::span(bytes_).first(content));
-  Checksum sum(content);
+  RunningChecksum sum(content);
   std::vector<uint8_t> piece(size_t(std::min<uint64_t>(content, piece_bytes)));
   for (uint64_t at = 0; at < content;) {
     const auto part = std::span(piece).first(size_t(std::min<uint64_t>(content - at, piece_bytes)));

@@ -1,7 +1,6 @@
 #include "kaustik/base/parallel.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
@@ -10,19 +9,6 @@
 
 #include "kaustik/base/processors.h"
 #include "kaustik/base/thread_order.h"
-
-namespace kaustik {
-
-struct ThreadLimit::Control {
-  tbb::global_control control;
-};
-
-ThreadLimit::ThreadLimit(int threads)
-    : control_(new Control{{tbb::global_control::max_allowed_parallelism, size_t(threads)}}) {}
-
-ThreadLimit::~ThreadLimit() = default;
-
-}  // namespace kaustik
 
 namespace kaustik::parallel_details {
 namespace {

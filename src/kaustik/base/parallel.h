@@ -4,7 +4,6 @@
 // threads is that of the task arena which the caller (the session) runs in.
 
 #include <cstddef>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <type_traits>
@@ -63,7 +62,7 @@ void in_parallel(const First& first, const Second& second) {
   parallel_details::run_both(parallel_details::Call<>(first), parallel_details::Call<>(second));
 }
 
-/// Runs `body` with at most `threads` threads (0: usable_processors()).
+/// Runs `body` with at most `threads` threads (0: all that there are).
 template <typename Body>
 void with_threads(int threads, const Body& body) {
   parallel_details::run_with_threads(threads, parallel_details::Call<>(body));
@@ -83,20 +82,5 @@ auto isolated(const Body& body) {
     return std::move(*result);
   }
 }
-
-/// While it lives the loops of the whole program, with_threads() included, take at most so many
-/// threads. For programs that own their process: by itself the scheduler takes as many as the
-/// affinity mask allows, and knows nothing of quotas.
-class ThreadLimit {
- public:
-  explicit ThreadLimit(int threads);
-  ~ThreadLimit();
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
-
- private:
-  struct Control;
-  std::unique_ptr<Control> control_;
-};
 
 }  // namespace kaustik
