@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "kaustik/base/processors.h"
 #include "tests/apps/program.h"
 

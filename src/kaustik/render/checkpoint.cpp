@@ -125,8 +125,8 @@ StopPlan get_plan(BinaryReader& reader) {
     reader.damaged("the passes that it was to have are not valid");
   plan.seconds = get_optional(reader);
   plan.error = get_optional(reader);
-  for (uint32_t* number : {&plan.division.whole.begin, &plan.division.whole.end,
-                           &plan.division.parts})
+  for (uint32_t* number :
+       {&plan.division.whole.begin, &plan.division.whole.end, &plan.division.parts})
     *number = reader.get<uint32_t>();
   if (!is_valid(plan.division, plan)) reader.damaged("the parts of its passes are not valid");
   return plan;

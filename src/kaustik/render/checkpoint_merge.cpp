@@ -170,7 +170,8 @@ MergedPasses check_parts(const std::vector<std::string>& paths, const std::strin
       if (!first) first = {kind_of(reader), path};
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::input) throw;
-      for (const Problem& problem : explained(error, path).problems())
+      const Error cause = explained(error, path);
+      for (const Problem& problem : cause.problems())
         problems.add(problem.message, problem.remedy, problem.place);
     }
   problems.throw_if_any();
