@@ -45,6 +45,14 @@ Image first_look(const Job& job) {
   return image;
 }
 
+/// Of a part: what there is of it.
+void tell_of_part(const StopPlan& plan, const Film& film) {
+  const PassDivision& division = plan.division;
+  for (uint32_t i = 0; i < division.parts; ++i)
+    if (division.part(i) == PassRange{plan.first_pass, plan.first_pass + plan.passes})
+      say("part {} of {}: passes {}", i + 1, division.parts, film.passes().text());
+}
+
 void tell_of_result(const JobResult& result, const Job& job, const SessionSettings& settings,
                     bool quiet) {
   const SessionReport& report = result.report;
@@ -54,14 +62,6 @@ void tell_of_result(const JobResult& result, const Job& job, const SessionSettin
     if (!quiet) note(decision);
   if (!quiet) tell_of_first_seconds(result.record.view.integrator, settings.seconds);
   for (const std::string& warning : report.warnings) warn(warning);
-}
-
-/// Of a part: what there is of it.
-void tell_of_part(const StopPlan& plan, const Film& film) {
-  const PassDivision& division = plan.division;
-  for (uint32_t i = 0; i < division.parts; ++i)
-    if (division.part(i) == PassRange{plan.first_pass, plan.first_pass + plan.passes})
-      say("part {} of {}: passes {}", i + 1, division.parts, film.passes().text());
 }
 
 /// Parts have to be complete: time is no goal of theirs.
