@@ -16,8 +16,8 @@ const std::vector<PhotonMapParameter>& photon_map_parameters() {
                          "Photon maps of `kaustik photons`, used in every pass instead of new "
                          "ones. The reported error then covers only the noise of the view."))},
       {integer_parameter("caustic_neighbors", 60,
-                         "Number of caustic photons, each of another light path, that an estimate "
-                         "uses [numCaustic]; 0: no caustics.")
+                         "Number of light paths whose nearest caustic photons an estimate uses "
+                         "[numCaustic]; 0: no caustics.")
            .range(0, 100000),
        int64_t{0}},
       {integer_parameter(
@@ -34,8 +34,8 @@ const std::vector<PhotonMapParameter>& photon_map_parameters() {
            .range(1, 1e6),
        1.0},
       {integer_parameter("global_neighbors", 10,
-                         "Number of global photons, each of another light path, that an estimate "
-                         "uses [numGlobal]; 0: no diffuse indirect light.")
+                         "Number of light paths whose nearest global photons an estimate uses "
+                         "[numGlobal]; 0: no diffuse indirect light.")
            .range(0, 100000),
        int64_t{50}},
       {integer_parameter("global_photons", 200000,

@@ -29,7 +29,8 @@ Rows film_rows() {
                    .range(1, 1 << 20)
                    .in("pixels")),
       number_parameter("exposure", 0,
-                       "Exposure added by tone mapping. Files that hold radiance are not changed.")
+                       "Exposure added by tone mapping operators that take one. Files that hold "
+                       "radiance are not changed.")
           .range(-100, 100)
           .in("stops"),
       number_parameter("iso", 100, "Sensitivity. Twice the value is one stop more exposure.")
