@@ -101,11 +101,9 @@ void merge(const MergeOptions& options) {
 void add_merge(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "merge",
-      "Put together what was computed in parts: passes of a picture (kaustik render --first-pass "
+      "Join results computed in parts: passes of a picture (kaustik render --first-pass "
       "--checkpoint), or photon maps (kaustik photons --part).");
-  command->footer(
-      "The result has the same bits as if it had been computed at once, whatever the order of the "
-      "parts.");
+  command->footer("The result has the same bits as a single run, whatever the order of the parts.");
   auto o = std::make_shared<MergeOptions>();
   takes_files(command
                   ->add_option("parts", o->inputs,
@@ -113,17 +111,15 @@ void add_merge(CLI::App& program) {
                                "parts of one pass")
                   ->required(),
               {"kpt", "kpm"});
-  takes_files(
-      command
-          ->add_option("-o,--output", o->outputs,
-                       "Image or checkpoint (.kpt) to write, may be repeated; of photon maps a "
-                       "photon map (.kpm)")
-          ->take_all()
-          ->allow_extra_args(false)
-          ->required(),
-      {"kpt", "kpm", "exr", "hdr", "pfm", "tif", "png", "jpg", "ppm"});
-  command->add_flag("--force", o->force,
-                    "Replace a checkpoint or photon map that is there already");
+  takes_files(command
+                  ->add_option("-o,--output", o->outputs,
+                               "Image or checkpoint (.kpt) to write, may be repeated; for photon "
+                               "maps a photon map (.kpm)")
+                  ->take_all()
+                  ->allow_extra_args(false)
+                  ->required(),
+              {"kpt", "kpm", "exr", "hdr", "pfm", "tif", "png", "jpg", "ppm"});
+  command->add_flag("--force", o->force, "Replace an existing checkpoint or photon map");
   command->callback([o] { merge(*o); });
 }
 
