@@ -23,13 +23,13 @@ PAGE = ROOT / "docs/scenes.md"
 SQUARE, WIDE = "-D size=1280", "-D width=1280 -D height=960"
 # Of each: options of the size and the tones, time, what it shows. README.md shows some.
 SCENES = {
-    "still_life": ("-D width=1600 -D height=900 --tonemap aces --exposure -3.3", "15m", "glass, water, wine, gold, brass and fruit in the late sun"),
-    "atrium": (SQUARE, "4m", "72 crystals above a fountain"),
-    "pool_below": (SQUARE, "4m", "caustics through real waves"),
-    "pool_above": (SQUARE, "4m", "lamps under bump-mapped water"),
-    "museum": (SQUARE, "4m", "evening sun, lamps on exhibits"),
-    "gallery_1": (WIDE, "4m", "a room lit through lampshades"),
-    "gallery_2": (WIDE, "4m", "marble and lampshades"),
+    "still_life": ("-D width=1600 -D height=900 --tonemap aces --exposure -3.3", "10m", "glass, water, wine, gold, brass and fruit in the late sun"),
+    "atrium": (SQUARE, "3m", "72 crystals above a fountain"),
+    "pool_below": (SQUARE, "3m", "caustics through real waves"),
+    "pool_above": (SQUARE, "3m", "lamps under bump-mapped water"),
+    "museum": (SQUARE, "3m", "evening sun, lamps on exhibits"),
+    "gallery_1": (WIDE, "3m", "a room lit through lampshades"),
+    "gallery_2": (WIDE, "3m", "marble and lampshades"),
     "maze": (SQUARE, "2m", "lamps in its ways"),
     "point_spotlight": (SQUARE, "2m", "one lamp on a red screen"),
     "metal_ring": (SQUARE, "2m", "gold, a small lamp, the cardioid inside"),
