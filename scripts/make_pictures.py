@@ -19,14 +19,16 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "docs/pictures/scenes"
 PAGE = ROOT / "docs/scenes.md"
+RADIANCE = ROOT / "out/scenes"  # the same with all layers, not kept
 
 SQUARE, WIDE = "-D size=1280", "-D width=1280 -D height=960"
+BRIGHT = SQUARE + " --tonemap reinhard"
 # Of each: options of the size and the tones, time, what it shows. README.md shows some.
 SCENES = {
     "still_life": ("-D width=1600 -D height=900 --tonemap aces --exposure -3.3", "10m", "glass, water, wine, gold, brass and fruit in the late sun"),
     "atrium": (SQUARE, "3m", "72 crystals above a fountain"),
-    "pool_below": (SQUARE, "3m", "caustics through real waves"),
-    "pool_above": (SQUARE, "3m", "lamps under bump-mapped water"),
+    "pool_below": (BRIGHT, "3m", "caustics through real waves"),
+    "pool_above": (BRIGHT, "3m", "lamps under bump-mapped water"),
     "museum": (SQUARE, "3m", "evening sun, lamps on exhibits"),
     "gallery_1": (WIDE, "3m", "a room lit through lampshades"),
     "gallery_2": (WIDE, "3m", "marble and lampshades"),
@@ -56,7 +58,7 @@ def facts_of(log):
 def make_picture(program, name, made):
     options, time, _ = SCENES[name]
     command = ["render", f"scenes/{name}/{name}.xml", *options.split(), "--time", time, "--denoise", "-o", f"{name}.jpg"]
-    arguments = command[:-1] + [str(PICTURES / f"{name}.jpg"), "--progress", "plain"]
+    arguments = command[:-1] + [str(PICTURES / f"{name}.jpg"), "-o", str(RADIANCE / f"{name}.exr"), "--progress", "plain"]
     made[name] = {"command": "kaustik " + " ".join(command), "time": time, "cores": os.cpu_count(),
                   **facts_of(run(program, *arguments))}
 
@@ -88,7 +90,8 @@ def main():
     program = arguments.program.resolve()
     if not program.is_file():
         sys.exit(f"there is no program {program}\n  remedy: build it (make build), or name another: --program")
-    PICTURES.mkdir(parents=True, exist_ok=True)
+    for folder in (PICTURES, RADIANCE):
+        folder.mkdir(parents=True, exist_ok=True)
     facts = PICTURES / "made.json"
     made = json.loads(facts.read_text()) if facts.exists() else {}
     for name in arguments.only or SCENES:
