@@ -25,7 +25,6 @@ SQUARE, WIDE = "-D size=1280", "-D width=1280 -D height=960"
 BRIGHT = SQUARE + " --tonemap reinhard"
 # Of each: options of the size and the tones, time, what it shows. README.md shows some.
 SCENES = {
-    "still_life": ("-D width=1600 -D height=900 --tonemap aces --exposure -3.3", "10m", "glass, water, wine, gold, brass and fruit in the late sun"),
     "atrium": (SQUARE, "3m", "72 crystals above a fountain"),
     "pool_below": (BRIGHT, "3m", "caustics through real waves"),
     "pool_above": (BRIGHT, "3m", "lamps under bump-mapped water"),
