@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes docs/scenes.md: a picture of every scene that ships, by the default method and denoised, with its command, time
+"""Makes docs/scenes.md: pictures of scenes that ship, by the default method and denoised, with its command, time
 and error.
 
 Usage: scripts/make_pictures.py [--program build/release/kaustik] [--only SCENE ...]
@@ -19,22 +19,23 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "docs/pictures/scenes"
 PAGE = ROOT / "docs/scenes.md"
+RADIANCE = ROOT / "out/scenes"  # the same with all layers, not kept
 
 SQUARE, WIDE = "-D size=1280", "-D width=1280 -D height=960"
-# Of each: options of the size, time, what it shows. README.md shows some.
+BRIGHT = SQUARE + " --tonemap reinhard"
+# Of each: options of the size and the tones, time, what it shows. README.md shows some.
 SCENES = {
-    "still_life": ("-D width=1600 -D height=900", "8m", "glass, water, wine, gold, brass and fruit in the late sun"),
-    "atrium": (SQUARE, "6m", "72 crystals above a fountain"),
-    "pool_below": (SQUARE, "6m", "caustics through real waves"),
-    "pool_above": (SQUARE, "6m", "lamps under bump-mapped water"),
-    "museum": (SQUARE, "5m", "evening sun, lamps on exhibits"),
-    "gallery_1": (WIDE, "5m", "a room lit through lampshades"),
-    "gallery_2": (WIDE, "5m", "marble and lampshades"),
-    "maze": (SQUARE, "3m", "lamps in its ways"),
-    "point_spotlight": (SQUARE, "3m", "one lamp on a red screen"),
-    "metal_ring": (SQUARE, "3m", "gold, a small lamp, the cardioid inside"),
-    "cornell_box": (SQUARE, "2m", "the box as it was measured"),
-    "cornell_spheres": (SQUARE, "3m", "mirror and glass in the box"),
+    "atrium": (SQUARE, "3m", "72 crystals above a fountain"),
+    "pool_below": (BRIGHT, "3m", "caustics through real waves"),
+    "pool_above": (BRIGHT, "3m", "lamps under bump-mapped water"),
+    "museum": (SQUARE, "3m", "evening sun, lamps on exhibits"),
+    "gallery_1": (WIDE, "3m", "a room lit through lampshades"),
+    "gallery_2": (WIDE, "3m", "marble and lampshades"),
+    "maze": (SQUARE, "2m", "lamps in its ways"),
+    "point_spotlight": (SQUARE, "2m", "one lamp on a red screen"),
+    "metal_ring": (SQUARE, "2m", "gold, a small lamp, the cardioid inside"),
+    "cornell_box": (SQUARE, "1m", "the box as it was measured"),
+    "cornell_spheres": (SQUARE, "2m", "mirror and glass in the box"),
 }
 
 
@@ -56,7 +57,7 @@ def facts_of(log):
 def make_picture(program, name, made):
     options, time, _ = SCENES[name]
     command = ["render", f"scenes/{name}/{name}.xml", *options.split(), "--time", time, "--denoise", "-o", f"{name}.jpg"]
-    arguments = command[:-1] + [str(PICTURES / f"{name}.jpg"), "--progress", "plain"]
+    arguments = command[:-1] + [str(PICTURES / f"{name}.jpg"), "-o", str(RADIANCE / f"{name}.exr"), "--progress", "plain"]
     made[name] = {"command": "kaustik " + " ".join(command), "time": time, "cores": os.cpu_count(),
                   **facts_of(run(program, *arguments))}
 
@@ -69,7 +70,7 @@ def said_of(facts):
 
 def page(made):
     lines = ["# Scenes", "",
-             "Every scene that ships, by the default method `auto`, denoised, made by `scripts/make_pictures.py`. Below each",
+             "Scenes that ship, by the default method `auto`, denoised, made by `scripts/make_pictures.py`. Below each",
              "picture stand its command, the time, and the standard error of its pixels (root mean square) before denoising, as",
              "the program prints it. [Comparisons](comparisons.md) shows `auto` beside other methods at equal time.", ""]
     for name, (_, _, shows) in SCENES.items():
@@ -88,7 +89,8 @@ def main():
     program = arguments.program.resolve()
     if not program.is_file():
         sys.exit(f"there is no program {program}\n  remedy: build it (make build), or name another: --program")
-    PICTURES.mkdir(parents=True, exist_ok=True)
+    for folder in (PICTURES, RADIANCE):
+        folder.mkdir(parents=True, exist_ok=True)
     facts = PICTURES / "made.json"
     made = json.loads(facts.read_text()) if facts.exists() else {}
     for name in arguments.only or SCENES:

@@ -55,18 +55,18 @@ void compare(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("compare", "Print how an image differs from a reference.");
+  CLI::App* command = program.add_subcommand(
+      "compare", "Compare an image with a reference and print the differences.");
   auto o = std::make_shared<CompareOptions>();
   takes_files(command->add_option("image", o->image, "Image to judge")->required(),
               picture_extensions());
-  takes_files(command->add_option("reference", o->reference, "Image that it should be")->required(),
+  takes_files(command->add_option("reference", o->reference, "Reference image")->required(),
               picture_extensions());
-  takes_files(
-      command->add_option("-o,--output", o->difference,
-                          "Picture of the relative difference to write: red brighter, blue darker"),
-      written_extensions());
-  command->add_option("--scale", o->scale, "Relative difference that is fully red or blue [1]")
+  takes_files(command->add_option(
+                  "-o,--output", o->difference,
+                  "Write a picture of the relative difference: red is brighter, blue darker"),
+              written_extensions());
+  command->add_option("--scale", o->scale, "Relative difference shown as full red or blue [1]")
       ->check(number_between(0, std::numeric_limits<double>::infinity()));
   takes(command->add_option("--layer", o->layer, "Layer to compare [the picture itself]"), "LAYER");
   command->callback([o] { compare(*o); });

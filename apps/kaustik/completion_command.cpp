@@ -36,12 +36,11 @@ void print_completions(const CLI::App& program, const std::string& name) {
 
 void add_completion(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "completion", "Print the completions of commands and options for a shell.");
+      "completion", "Print completions of commands and options for a shell.");
   command->footer(
-      "Packages install them. By hand: write eval \"$(kaustik completion bash)\" into ~/.bashrc, "
-      "the "
-      "same with zsh behind compinit into ~/.zshrc, kaustik completion fish | source into "
-      "config.fish.");
+      "Packages install them. To install them by hand, write eval \"$(kaustik completion bash)\" "
+      "into ~/.bashrc. For zsh, write the same with zsh into ~/.zshrc, after compinit. For fish, "
+      "write kaustik completion fish | source into config.fish.");
   auto name = std::make_shared<std::string>();
   takes_words(command->add_option("shell", *name, "bash, zsh or fish")->required(), shell_names());
   command->callback([name, &program] { print_completions(program, *name); });

@@ -121,11 +121,12 @@ void convert(const ConvertOptions& options) {
 
 void add_convert(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "convert", "Write a scene of any format as XML of Mitsuba 3, with old spellings upgraded.");
+      "convert", "Write a scene of any format as XML of Mitsuba 3, and upgrade old spellings.");
   command->footer(
-      "Meshes and pictures stay where they are: the new file names them from its own folder. Those "
-      "that Mitsuba 3 would read otherwise (parts of OBJ files, height fields, scaled textures …) "
-      "are written anew beside it, as PLY and EXR files with its name before theirs.\n"
+      "The new file refers to meshes and pictures in their places, relative to its own folder. "
+      "Mitsuba 3 reads some of them differently (parts of OBJ files, height fields, scaled "
+      "textures …). These become PLY and EXR files beside the new file; their names begin with its "
+      "name.\n"
       "  kaustik convert scene.xml -o mitsuba3.xml");
   auto o = std::make_shared<ConvertOptions>();
   add_scene(*command, o->scene);
@@ -134,7 +135,7 @@ void add_convert(CLI::App& program) {
       {"xml"});
   add_definitions(*command, o->definitions);
   add_strict(*command, o->is_strict);
-  command->add_flag("--force", o->force, "Replace a file that is there");
+  command->add_flag("--force", o->force, "Replace an existing file");
   command->callback([o] { convert(*o); });
 }
 

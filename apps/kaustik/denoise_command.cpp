@@ -44,10 +44,10 @@ Image denoised(const std::string& path) {
 
 void add_denoise(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "denoise", "Smooth the noise of a rendered EXR or checkpoint, by what is known of it.");
+      "denoise", "Smooth the noise of a rendered EXR or checkpoint, by its measured noise.");
   command->footer(
-      "Edges of what is seen stay; details of the light that are fainter than its noise are lost.\n"
-      "The layer denoised_error tells how far off the result is, from two passes on.");
+      "Edges of surfaces stay. Details of the illumination fainter than its noise are lost.\n"
+      "From two passes on, the layer denoised_error holds the error of the result.");
   struct Options {
     std::string input, output;
     bool full_float = false, force = false;
@@ -55,17 +55,17 @@ void add_denoise(CLI::App& program) {
   auto o = std::make_shared<Options>();
   takes_files(command
                   ->add_option("image", o->input,
-                               "EXR that kaustik rendered, with all its layers, or checkpoint")
+                               "EXR that kaustik rendered, with all its layers, or a checkpoint")
                   ->required(),
               {"exr", "kpt"});
   takes_files(command
                   ->add_option("-o,--output", o->output,
-                               "EXR, HDR, PFM or LogLuv tif to write, - for standard output; for "
-                               "displays: kaustik tonemap")
+                               "EXR, HDR, PFM or LogLuv tif to write; - for standard output. For "
+                               "displays use kaustik tonemap")
                   ->required(),
               {"exr", "hdr", "pfm", "tif"});
   command->add_flag("--float", o->full_float, "EXR with 32-bit instead of 16-bit floats");
-  command->add_flag("--force", o->force, "Replace the image that is read");
+  command->add_flag("--force", o->force, "Replace the input image");
   command->callback([o] {
     FileRoles roles;
     roles.reads(o->input, o->force);

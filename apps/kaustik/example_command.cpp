@@ -80,18 +80,18 @@ std::vector<std::string> example_names() {
 
 void add_example(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("example", "Write a small scene to start with, or list them.");
+      program.add_subcommand("example", "Write a small scene to start with, or list all.");
   command->footer(
-      "The scenes are complete, and their comments tell what can be changed.\n"
+      "The scenes are complete. Their comments say what you can change.\n"
       "  kaustik example box\n"
       "  kaustik render box.xml -D lamps=bulbs --time 20s -o box.png");
   auto o = std::make_shared<ExampleOptions>();
-  auto* name = takes_words(command->add_option("name", o->name, "Which one [lists all]"),
+  auto* name = takes_words(command->add_option("name", o->name, "Scene to write [lists all]"),
                            example_names(), "NAME");
   takes_files(
       command->add_option("-o,--output", o->output, "Scene file to write [NAME.xml]")->needs(name),
       {"xml"});
-  command->add_flag("--force", o->force, "Replace a file that is there")->needs(name);
+  command->add_flag("--force", o->force, "Replace an existing file")->needs(name);
   command->callback([o] {
     if (o->name.empty())
       list_examples();

@@ -8,13 +8,13 @@ const std::vector<ExitCode>& exit_codes() {
   static const std::vector<ExitCode> codes{
       {"0", "all was done"},
       {std::to_string(exit_system),
-       "the machine failed: disk full, not enough memory, an output could not be written"},
+       "the machine failed: disk full, not enough memory, or an output could not be written"},
       {std::to_string(exit_input),
        "something is wrong with the command line, the scene or another file"},
       {std::to_string(exit_ended_early),
-       "ended early, by Ctrl-C or another signal, or a part by --time: what was finished is "
+       "ended early by Ctrl-C or another signal, or a part by --time: the finished passes are "
        "written"},
-      {"128+n", "ended at once by signal n, such as a second Ctrl-C: files are as they were"}};
+      {"128+n", "ended at once by signal n, such as a second Ctrl-C: files are unchanged"}};
   return codes;
 }
 

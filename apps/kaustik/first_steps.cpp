@@ -26,7 +26,7 @@ std::string beginning_of(const std::string& sentence) {
 
 std::string first_steps(const CLI::App& program) {
   std::string text = fmt::format(
-      "Kaustik {} renders light that glass, metal and water have focused.\n\n"
+      "Kaustik {} renders light that glass, metal and water focus.\n\n"
       "Start with these:\n"
       "  kaustik example caustic                                writes a scene\n"
       "  kaustik render caustic.xml --time 20s -o caustic.png   renders it\n"
@@ -40,7 +40,8 @@ std::string first_steps(const CLI::App& program) {
   }
   const std::string manual = shown_path(manual_page());
   text += fmt::format(
-      "\nkaustik COMMAND --help tells its options, kaustik help what scenes are made of.\n"
+      "\n"
+      "kaustik COMMAND --help lists its options; kaustik help lists scene objects.\n"
       "The manual: man kaustik{}",
       manual.empty() ? "" : ", " + manual);
   return text;

@@ -85,7 +85,7 @@ void help(const std::string& name) {
   if (!name.empty())
     throw Error(ErrorKind::input, fmt::format("there is no type '{}'", name), suggest(name, names));
   fmt::print(
-      "kaustik help TYPE prints the parameters of a type, kaustik help exit what exit codes mean. "
+      "kaustik help TYPE prints the parameters of a type; kaustik help exit lists the exit codes. "
       "Types:\n");
   std::string family;
   for (const TypeInfo* info : all_types()) {
@@ -100,11 +100,10 @@ void add_help(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("help", "Print the parameters of a type, or list all types.");
   auto name = std::make_shared<std::string>();
-  takes_words_of(
-      command->add_option("type", *name,
-                          "Type or family, such as photonmap, bsdf, film; or \"thesis\": "
-                          "variables of the environment; or \"exit\": exit codes"),
-      topics, "TYPE");
+  takes_words_of(command->add_option("type", *name,
+                                     "Type or family, such as photonmap, bsdf, film; \"thesis\" "
+                                     "for environment variables; \"exit\" for exit codes"),
+                 topics, "TYPE");
   command->callback([name] { help(*name); });
 }
 

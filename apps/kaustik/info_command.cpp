@@ -30,7 +30,7 @@ void info(const std::string& path, const std::vector<std::string>& definitions, 
 
 void add_info(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("info", "Print what is in a scene and warn of what can't work.");
+      program.add_subcommand("info", "Print the content of a scene and warn of problems.");
   auto path = std::make_shared<std::string>();
   auto definitions = std::make_shared<std::vector<std::string>>();
   add_scene(*command, *path);

@@ -84,12 +84,10 @@ void learn_scene(LearnOptions options) {
 
 void add_learn(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "learn",
-      "Learn how to render a scene, for any number of renders of it, on other machines too.");
+      "learn", "Learn how to render a scene, for any number of renders, also on other machines.");
   command->footer(
-      "Renders learn by themselves where the light comes from, how wide to merge, and where "
-      "samples "
-      "are needed: on a thousand machines a thousand times. Learn once instead:\n"
+      "Each render learns where the light comes from, how wide to merge, and where samples are "
+      "needed. On a thousand machines that happens a thousand times. Learn once instead:\n"
       "  kaustik learn scene.xml -o scene.kln\n"
       "  kaustik render scene.xml --learned scene.kln --first-pass 64 --passes 64 --checkpoint "
       "b.kpt\n"
@@ -103,23 +101,24 @@ void add_learn(CLI::App& program) {
   add_strict(*command, o->recipe.is_strict);
   add_camera(*command, o->recipe.camera);
   add_settings(*command, o->settings, "integrator.max_depth=8, film.width=400, ID.radius=2");
-  takes_words(
-      command->add_option("--integrator", o->recipe.integrator,
-                          "Use this method instead of the file's: auto, vcm, ppm, bdpt learn"),
-      learning_integrators(), "METHOD");
+  takes_words(command->add_option(
+                  "--integrator", o->recipe.integrator,
+                  "Use this method instead of the file's; auto, vcm, ppm and bdpt can learn"),
+              learning_integrators(), "METHOD");
   command->add_option("--passes", o->passes, "Number of passes to learn from, up to 256 [16]")
       ->check(whole_number(1, 256));
   command
-      ->add_option("--spp", o->spp,
-                   "Samples per pixel over all passes; renders with --learned take as many per "
-                   "pass as these")
+      ->add_option(
+          "--spp", o->spp,
+          "Samples per pixel over all passes; renders with --learned use the same number per pass")
       ->check(whole_number(1, 1 << 30));
-  command->add_flag("--force", o->force, "Replace a file that is there and holds no lessons");
-  command->add_option("--seed", o->recipe.seed,
-                      "Seed of all random numbers; renders of the same seed draw others [0]");
+  command->add_flag("--force", o->force, "Replace an existing file that holds no lessons");
+  command->add_option(
+      "--seed", o->recipe.seed,
+      "Seed of all random numbers; renders with the same seed draw different ones [0]");
   add_texture_memory(*command, o->build);
   add_threads(*command, o->threads);
-  add_progress(*command, o->progress, "No progress, no decisions");
+  add_progress(*command, o->progress, "No progress and no report of decisions");
   command->callback([o] { learn_scene(*o); });
 }
 

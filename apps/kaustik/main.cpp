@@ -71,7 +71,8 @@ int run(int argc, char** argv) {
   CLI::App program{"Kaustik: a photon mapping renderer in physical units.", "kaustik"};
   auto as_json = std::make_shared<bool>(false);
   auto* json =
-      program.add_flag("--json", *as_json, "Of --version: as JSON, with what it was built with");
+      program.add_flag("--json", *as_json,
+                       "With --version: print JSON, with the libraries and options of the build");
   json->needs(program.set_version_flag(
       "--version",
       [as_json] { return *as_json ? kaustik::app::version_json() : std::string(KAUSTIK_VERSION); },

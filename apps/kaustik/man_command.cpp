@@ -47,8 +47,8 @@ void add_man(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("man", "Print the man page of a command, or of the program.");
   command->footer(
-      "Packages install the pages, and man kaustik-render shows them. To read one that is printed, "
-      "pipe it to man -l -.");
+      "Packages install the pages; man kaustik-render shows one. To read a printed page, pipe it "
+      "to man -l -.");
   auto o = std::make_shared<ManOptions>();
   auto* name = command->add_option("command", o->command, "Command [the program itself]");
   takes_words(name, command_names(program), "COMMAND");

@@ -83,13 +83,13 @@ void merge(const MergeOptions& options) {
 void add_merge(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "merge",
-      "Put together what was computed in parts: passes of a picture (kaustik render --part), or "
-      "photon maps (kaustik photons --part).");
+      "Join results computed in parts: passes of a picture (kaustik render --part), or photon maps "
+      "(kaustik photons --part).");
   command->footer(
-      "The result has the same bits as if it had been computed at once, whatever the order of the "
-      "parts. Some parts may be merged to a checkpoint, and these again: of passes one film is in "
-      "memory, however many parts there are. Nothing is written and nothing removed if any part is "
-      "damaged, there twice, or of another render.");
+      "The result has the same bits as a single run, whatever the order of the parts. A checkpoint "
+      "of some parts can be merged with others. Passes need the memory of one film, however many "
+      "parts there are. If a part is damaged, given twice, or of another render, nothing is written "
+      "and nothing is removed.");
   auto o = std::make_shared<MergeOptions>();
   takes_files(command
                   ->add_option("parts", o->inputs,
@@ -97,21 +97,19 @@ void add_merge(CLI::App& program) {
                                "parts of one pass")
                   ->required(),
               {"kpt", "kpm"});
-  takes_files(
-      command
-          ->add_option("-o,--output", o->outputs,
-                       "Image or checkpoint (.kpt) to write, may be repeated; of photon maps a "
-                       "photon map (.kpm)")
-          ->take_all()
-          ->allow_extra_args(false)
-          ->required(),
-      {"kpt", "kpm", "exr", "hdr", "pfm", "tif", "png", "jpg", "ppm"});
+  takes_files(command
+                  ->add_option("-o,--output", o->outputs,
+                               "Image or checkpoint (.kpt) to write, may be repeated; for photon "
+                               "maps a photon map (.kpm)")
+                  ->take_all()
+                  ->allow_extra_args(false)
+                  ->required(),
+              {"kpt", "kpm", "exr", "hdr", "pfm", "tif", "png", "jpg", "ppm"});
   command->add_flag("--incomplete", o->incomplete,
-                    "Make the picture of the parts that are given, though others are missing");
+                    "Make the picture of the given parts, even if others are missing");
   command->add_flag("--consume", o->consume,
                     "Remove the parts once the checkpoint or photon map of all of them is written");
-  command->add_flag("--force", o->force,
-                    "Replace a checkpoint or photon map that is there already");
+  command->add_flag("--force", o->force, "Replace an existing checkpoint or photon map");
   command->callback([o] { merge(*o); });
 }
 

@@ -126,11 +126,9 @@ void add_photons(CLI::App& program) {
   add_camera(*command, o->recipe.camera);
   add_settings(*command, o->settings, "integrator.caustic_photons=1000000, ID.radius=2");
   add_light_level(*command, o->levels);
-  command
-      ->add_option("--part", o->part,
-                   "Trace only part I of N, to be put together with kaustik merge [all]")
+  command->add_option("--part", o->part, "Trace only part I of N, which kaustik merge joins [all]")
       ->type_name("I/N");
-  command->add_flag("--force", o->force, "Replace a file that is there and is no photon map");
+  command->add_flag("--force", o->force, "Replace an existing file that is no photon map");
   command->add_option("--seed", o->recipe.seed, "Seed of all random numbers [0]");
   add_texture_memory(*command, o->build);
   add_threads(*command, o->threads);

@@ -43,13 +43,12 @@ std::unique_ptr<EventStream> opened(const std::string& target, const FileRoles& 
 void add_progress(CLI::App& command, ProgressOptions& options, const std::string& quiet_text) {
   takes_words(command.add_option(
                   "--progress", options.progress,
-                  "How progress is shown on standard error: a bar that is kept up to date, or a "
-                  "plain line now and then; json: lines of JSON for programs, messages too [auto: "
-                  "bar on a terminal, else plain]"),
+                  "Progress on standard error: a bar, a plain line now and then, or json: lines of "
+                  "JSON for programs, with the messages [auto: bar on a terminal, else plain]"),
               progress_names);
   takes_files(command.add_option("--progress-file", options.file,
-                                 "Write lines of JSON there, beside what --progress shows: a file, "
-                                 "or an open descriptor, fd:3"),
+                                 "Write progress as lines of JSON to this file, or to an open "
+                                 "descriptor such as fd:3; beside --progress"),
               {});
   command.add_flag("-q,--quiet", options.quiet, quiet_text);
 }

@@ -176,24 +176,23 @@ void render(RenderOptions options) {
 void add_render(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to image files.");
   command->footer(
-      "Ctrl-C, SIGTERM and SIGHUP end the render, write what is finished, and the exit code is 75; "
-      "a second one ends the program at once. In the first pass a picture of fewer samples is "
-      "written, or nothing as long as not every pixel has one. SIGUSR1 writes the picture as it "
-      "is, "
-      "and the render goes on. A part that --time ends before all its passes are there has exit "
-      "code 75, too.\n"
-      "Lines of JSON have an \"event\": start, progress, written, message, end. By --progress json "
-      "they go to standard error, and all messages with them; by --progress-file elsewhere, and "
-      "messages stay text.\n"
-      "Variables photonMap.… of the environment set integrator photonmap as in Schregle's thesis: "
-      "kaustik help thesis.");
+      "Ctrl-C, SIGTERM and SIGHUP end the render: it writes the finished passes and exits with 75. "
+      "A second signal ends the program at once. In the first pass it writes a picture of fewer "
+      "samples, or nothing if a pixel has no sample yet. SIGUSR1 writes the picture as it is, and "
+      "the render goes on. A part that --time ends before its last pass exits with 75, too.\n"
+      "Each line of JSON has an \"event\": start, progress, written, message or end. With "
+      "--progress json the lines go to standard error, with all messages. With --progress-file "
+      "they go elsewhere, and messages stay text.\n"
+      "Environment variables photonMap.… set integrator photonmap as in Schregle's thesis: kaustik "
+      "help thesis.");
   auto options = std::make_shared<RenderOptions>();
   add_scene(*command, options->recipe.scene);
   takes_files(
       command
-          ->add_option("-o,--output", options->outputs.files,
-                       "Image to write, by extension: exr, hdr, pfm, tif (LogLuv), png, jpg, "
-                       "ppm; - or png:- for standard output; may be repeated [SCENE.exr]")
+          ->add_option(
+              "-o,--output", options->outputs.files,
+              "Image to write; the extension gives the format: exr, hdr, pfm, tif (LogLuv), png, "
+              "jpg, ppm; - or png:- for standard output; may be repeated [SCENE.exr]")
           ->take_all()
           ->allow_extra_args(false),
       written_extensions());
@@ -214,62 +213,62 @@ void add_render(CLI::App& program) {
       ->check(whole_number(1, 1 << 30));
   command
       ->add_option("--spp", options->spp,
-                   "Samples per pixel over all passes (many make many passes)")
+                   "Samples per pixel over all passes (more samples make more passes)")
       ->check(whole_number(1, 1 << 30));
-  auto* error = takes(
-      command->add_option("--error", options->error,
-                          "Stop when the picture's relative error is at most this: 2% (looked at "
-                          "after 16, 32, 64, … passes)"),
-      "PERCENT");
+  auto* error =
+      takes(command->add_option("--error", options->error,
+                                "Stop when the picture's relative error is at most this, such as "
+                                "2% (checked after 16, 32, 64, … passes)"),
+            "PERCENT");
   command
       ->add_option("--first-pass", options->first_pass,
                    "Number of the first pass; --passes and --spp count from it [0]")
       ->check(whole_number(0, 1 << 30));
   takes(command->add_option("--time", options->time,
-                            "Stop then: 60s, 5m, 1h30m; a first look if pixels lack samples then"),
+                            "Time limit, such as 60s, 5m, 1h30m; writes a first look if pixels "
+                            "have no samples by then"),
         "TIME");
-  auto* checkpoint =
-      takes_files(command->add_option(
-                      "--checkpoint", options->checkpoint,
-                      "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge"),
-                  {"kpt"});
-  auto* force =
-      command->add_flag("--force", options->force, "Replace a checkpoint that is there already")
-          ->needs(checkpoint);
+  auto* checkpoint = takes_files(
+      command->add_option(
+          "--checkpoint", options->checkpoint,
+          "Keep the finished passes in this file, .kpt, for kaustik resume and kaustik merge"),
+      {"kpt"});
+  takes(command
+            ->add_option("--every", options->every,
+                         "Time between checkpoints, such as 30s, 5m, 1h [30s]")
+            ->needs(checkpoint),
+        "TIME");
+  auto* force = command->add_flag("--force", options->force, "Replace an existing checkpoint")
+                    ->needs(checkpoint);
   command
       ->add_flag("--resume-if-there", options->resume_if_there,
-                 "Go on with the checkpoint if it is there, for commands that are repeated until "
-                 "they are done")
+                 "Go on with the checkpoint if it exists; for commands that are repeated until they "
+                 "are done")
       ->needs(checkpoint)
       ->excludes(force);
   command
       ->add_option("--part", options->part,
-                   "Of the passes that --passes and --spp tell only part I of N, for kaustik merge")
+                   "Render part I of N of the passes that --passes or --spp name, for kaustik merge")
       ->type_name("I/N")
       ->needs(checkpoint)
       ->excludes(error);
-  takes(
-      command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
-          ->needs(checkpoint),
-      "TIME");
   takes_files(command->add_option("--learned", options->learned,
-                                  "Lessons for all passes, .kln: kaustik learn"),
+                                  "Lessons for all passes, .kln, from kaustik learn"),
               {"kln"});
   command->add_option("--seed", options->recipe.seed, "Seed of all random numbers [0]");
   add_texture_memory(*command, options->build);
   add_threads(*command, options->threads);
-  takes_words(
-      command->add_option("--tonemap", options->outputs.tone,
-                          "For 8-bit images and previews [histogram]; its parameters: --set "
-                          "tonemap.key=0.3"),
-      tone_operator_names());
+  takes_words(command->add_option("--tonemap", options->outputs.tone,
+                                  "Operator for 8-bit images and previews [histogram]; --set "
+                                  "tonemap.key=0.3 sets its parameters"),
+              tone_operator_names());
   command->add_option("--exposure", options->exposure, "The same as --set tonemap.exposure=…");
   command->add_flag("--float", options->outputs.full_float,
                     "EXR with 32-bit instead of 16-bit floats");
   command->add_flag("--denoise", options->outputs.denoise,
-                    "Smooth the picture's noise (the EXR's layers keep it): kaustik denoise");
+                    "Smooth the picture's noise like kaustik denoise; the EXR's layers keep it");
   command->add_flag("--reproducible", options->outputs.reproducible,
-                    "Write no times, so that equal renders are equal files");
+                    "Write no times, so equal renders give equal files");
   add_progress(*command, options->progress, "No progress");
   add_views(*command, options->views);
   command->callback([options] { render(*options); });

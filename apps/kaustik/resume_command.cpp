@@ -161,37 +161,38 @@ void resume(const ResumeOptions& options) {
 
 void add_resume(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "resume", "Go on with a render that was stopped: kaustik render --checkpoint.");
+      "resume",
+      "Resume a stopped render from a checkpoint, which kaustik render --checkpoint writes.");
   command->footer(
       "The result has the same bits as a render without a break. Scene, integrator, seed and all "
-      "settings are those of the checkpoint; the scene must not have changed. Without --passes, "
-      "--spp, --time and --error it goes as far as the render was told to; if it was there already "
-      "it only "
+      "settings come from the checkpoint; the scene must not have changed. Without --passes, "
+      "--spp, --time and --error the original limits hold. If they are reached already, it only "
       "writes the picture.");
   auto o = std::make_shared<ResumeOptions>();
-  takes_files(command->add_option("checkpoint", o->checkpoint, "Checkpoint, .kpt; kept up to date")
-                  ->required(),
-              {"kpt"});
   takes_files(
-      command
-          ->add_option("-o,--output", o->outputs,
-                       "Image to write; may be repeated [as the render was told, in and below "
-                       "the checkpoint's folder]")
-          ->take_all()
-          ->allow_extra_args(false),
-      written_extensions());
+      command->add_option("checkpoint", o->checkpoint, "Checkpoint, .kpt; it is kept up to date")
+          ->required(),
+      {"kpt"});
+  takes_files(command
+                  ->add_option("-o,--output", o->outputs,
+                               "Image to write; may be repeated [the render's own outputs, in and "
+                               "below the checkpoint's folder]")
+                  ->take_all()
+                  ->allow_extra_args(false),
+              written_extensions());
   auto* passes =
-      command->add_option("--passes", o->passes, "Number of passes, those there included")
+      command->add_option("--passes", o->passes, "Number of passes, including finished ones")
           ->check(whole_number(1, 1 << 30));
-  command->add_option("--spp", o->spp, "Samples per pixel over all passes, those there included")
+  command->add_option("--spp", o->spp, "Samples per pixel over all passes, including finished ones")
       ->check(whole_number(1, 1 << 30))
       ->excludes(passes);
-  takes(command->add_option("--time", o->time, "Stop in time, from now: 60s, 5m, 1h30m"), "TIME");
+  takes(command->add_option("--time", o->time, "Time limit from now, such as 60s, 5m, 1h30m"),
+        "TIME");
   takes(command->add_option("--error", o->error,
-                            "Stop when the picture's relative error is at most this: 2%"),
+                            "Stop when the picture's relative error is at most this, such as 2%"),
         "PERCENT");
   takes_files(
-      command->add_option("--scene", o->scene, "Where the scene file is now, if it was moved"),
+      command->add_option("--scene", o->scene, "New place of the scene file, if it was moved"),
       scene_extensions());
   takes(command->add_option("--every", o->every, "Time between checkpoints [30s]"), "TIME");
   add_texture_memory(*command, o->build);

@@ -42,14 +42,13 @@ void add_definitions(CLI::App& command, std::vector<std::string>& definitions) {
 }
 
 void add_camera(CLI::App& command, std::string& camera) {
-  command.add_option("--camera", camera, "Which of the scene's cameras, by its id [the first]")
-      ->type_name("ID");
+  command.add_option("--camera", camera, "Id of the camera to use [the first]")->type_name("ID");
 }
 
 void add_strict(CLI::App& command, bool& is_strict) {
-  command.add_flag("--strict", is_strict,
-                   "Refuse parameters and elements that Kaustik does not know, where otherwise it "
-                   "leaves them out and tells");
+  command.add_flag(
+      "--strict", is_strict,
+      "Refuse unknown parameters and elements, instead of ignoring them with a warning");
 }
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings,

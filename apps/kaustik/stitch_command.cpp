@@ -42,26 +42,25 @@ void stitch(const StitchOptions& options) {
 }  // namespace
 
 void add_stitch(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("stitch", "Put a picture together from EXR files of its parts.");
+  CLI::App* command = program.add_subcommand("stitch", "Join EXR files of parts into one picture.");
   command->footer(
-      "Parts are rendered by the film's crop window: kaustik render SCENE --set "
+      "Render the parts with the film's crop window: kaustik render SCENE --set "
       "film.crop_offset_y=0 --set film.crop_height=540 -o top.exr\n"
-      "They must cover the picture. Where they overlap they must be the same.");
+      "The parts must cover the picture. Where they overlap, they must be equal.");
   auto o = std::make_shared<StitchOptions>();
   takes_files(
-      command->add_option("parts", o->parts, "EXR files, whose data windows tell where they lie")
+      command->add_option("parts", o->parts, "EXR files; their data windows give their places")
           ->required(),
       {"exr"});
   takes_files(command
                   ->add_option("-o,--output", o->outputs,
-                               "Image to write, by extension as of kaustik render; may be repeated")
+                               "Image to write, in a format of kaustik render; may be repeated")
                   ->take_all()
                   ->allow_extra_args(false)
                   ->required(),
               written_extensions());
   command->add_flag("--float", o->full_float, "EXR with 32-bit instead of 16-bit floats");
-  command->add_flag("--force", o->force, "Replace an image that is read");
+  command->add_flag("--force", o->force, "Replace an input image");
   command->callback([o] { stitch(*o); });
 }
 

@@ -151,7 +151,7 @@ std::vector<Setting> thesis_settings(const std::optional<Object>& integrator,
 void add_light_level(CLI::App& command, LevelOptions& levels) {
   command
       .add_option("-l", levels.light,
-                  "Longest light path of photons in scattering events (max_light_level)")
+                  "Longest path of photons in scattering events (max_light_level)")
       ->type_name("N")
       ->check(whole_number(1, 1 << 20));
 }
@@ -159,7 +159,7 @@ void add_light_level(CLI::App& command, LevelOptions& levels) {
 void add_eye_level(CLI::App& command, LevelOptions& levels) {
   command
       .add_option("-e", levels.eye,
-                  "Levels of the camera's path at which photonmap gathers (max_eye_level)")
+                  "Levels of the camera path at which photonmap gathers (max_eye_level)")
       ->type_name("N")
       ->check(whole_number(0, 64));
 }
@@ -191,15 +191,17 @@ std::vector<Setting> collected_settings(const std::optional<Object>& integrator,
 
 void print_thesis_variables() {
   fmt::print(
-      "Variables of the environment by which Schregle's thesis (1998, appendix A) sets its photon "
-      "map.\nThey apply to integrator photonmap; --set, -l and -e win over them, and they win over "
-      "the\nscene file. Shells cannot assign names with a dot, env can:\n"
+      "Environment variables that set the photon map in Schregle's thesis (1998, appendix A).\n"
+      "They apply to integrator photonmap. --set, -l and -e override them; they override the "
+      "scene\n"
+      "file. Shells cannot assign names with a dot, but env can:\n"
       "  env photonMap.numGlobal=80 photonMap.minDist=1 kaustik render scene.xml\n"
-      "The thesis's defaults: integrator parameter preset = thesis.\n");
+      "For the thesis's defaults, set the integrator parameter preset = thesis.\n");
   for (const Variable& variable : variables_of_thesis) {
     const Parameter& parameter = parameter_of(variable);
     fmt::print("\n  {:28} {}\n      {}\n", variable.name, variable.parameter, parameter.sentence);
-    if (variable.kind == Kind::flag) fmt::print("      A flag: counts by being there.\n");
+    if (variable.kind == Kind::flag)
+      fmt::print("      A flag: on if the variable is set, even to nothing.\n");
     if (variable.kind == Kind::quality)
       fmt::print("      0, 1, 2: into 32, 64, 128 boxes; more changes nothing.\n");
     if (!parameter.choices.empty())

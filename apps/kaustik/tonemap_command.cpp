@@ -123,8 +123,7 @@ void tonemap(const TonemapOptions& options) {
 
 void add_tonemap(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "tonemap",
-      "Turn high dynamic range images (exr, hdr, pfm, LogLuv tif) into ones for displays.");
+      "tonemap", "Convert high dynamic range images (exr, hdr, pfm, LogLuv tif) for displays.");
   command->footer(
       "Every parameter of every operator: kaustik help tonemap\n"
       "Several images: kaustik tonemap a.exr b.exr -o pictures/");
@@ -140,10 +139,11 @@ void add_tonemap(CLI::App& program) {
           ->take_all()
           ->allow_extra_args(false),
       shown_extensions());
-  takes_words(command->add_option("--operator", o->tone, "How luminances are shown [histogram]"),
+  takes_words(command->add_option("--operator", o->tone, "Tone mapping operator [histogram]"),
               tone_operator_names());
   command
-      ->add_option("--set", o->settings, "Change a parameter of the operator: human=true, key=0.36")
+      ->add_option("--set", o->settings,
+                   "Change a parameter of the operator, such as human=true or key=0.36")
       ->type_name("PARAMETER=VALUE")
       ->allow_extra_args(false);
   takes(command->add_option("--layer", o->layer,
@@ -158,12 +158,12 @@ void add_tonemap(CLI::App& program) {
   command->add_option("--quality", o->quality, "Of jpg [95]")->check(whole_number(1, 100));
   auto* data_window = command->add_flag(
       "--data-window", o->data_window,
-      "Of an EXR show only the pixels that it has [of crop windows that kaustik rendered]");
+      "Show only the pixels that the EXR has [for crop windows that kaustik rendered]");
   command
       ->add_flag("--display-window", o->display_window,
-                 "Show all of the picture, black where the EXR has no pixels [of all others]")
+                 "Show the whole picture, black where the EXR has no pixels [for all others]")
       ->excludes(data_window);
-  command->add_flag("--force", o->force, "Replace an image that is read");
+  command->add_flag("--force", o->force, "Replace an input image");
   command->add_flag("-q,--quiet", o->quiet, "No notes");
   command->callback([o] { tonemap(*o); });
 }

@@ -146,38 +146,37 @@ void view_scene(ViewerOptions options) {
 
 void add_view(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "view", "Watch a scene being rendered in a browser, turn its camera and change it.");
+      "view", "Show a scene in a browser while it renders, and change its camera and parameters.");
   command->footer(
-      "So kaustik view scenes/metal_ring/metal_ring.xml prints an address, and opens it if there "
-      "is "
-      "a desktop. The token in it lets you in; keep it "
-      "to yourself. While the camera moves photons are kept, so that caustics stay; at rest the "
+      "It prints an address, and opens it if there is a desktop. The address contains a token; "
+      "keep it secret. While the camera moves, photons are kept, so caustics stay. At rest the "
       "scene's own integrator takes over.\n"
-      "Only this machine can reach it. On another one, go through ssh, then open the same address "
-      "there:\n"
+      "Only this machine can reach the address. From another machine, connect by ssh, then open "
+      "the same address there:\n"
       "  ssh -L 8763:127.0.0.1:8763 MACHINE\n"
-      "The variable KAUSTIK_VIEW_TOKEN of the environment sets the token, so that pages find the "
-      "program again that was started anew.");
+      "The environment variable KAUSTIK_VIEW_TOKEN sets the token, so open pages find the program "
+      "after a restart.");
   auto options = std::make_shared<ViewerOptions>();
   add_scene(*command, options->recipe.scene);
-  command->add_option("--port", options->port, "Port to listen to [8763, or any that is free]")
+  command->add_option("--port", options->port, "Port to listen on [8763, or any free one]")
       ->check(whole_number(1, 65535));
-  takes(command->add_option("--listen", options->address,
-                            "Address to listen to; others than 127.0.0.1 and ::1 let other "
-                            "machines in [127.0.0.1]"),
+  takes(command->add_option(
+            "--listen", options->address,
+            "Address to listen on; any but 127.0.0.1 and ::1 admits other machines [127.0.0.1]"),
         "ADDRESS");
   command->add_flag("--no-browser", options->no_browser,
-                    "Start no browser, print the address only");
+                    "Start no browser; only print the address");
   takes(command->add_option("--output", options->output,
-                            "Folder that pages may save pictures in, by new names [.]"),
+                            "Folder in which pages may save pictures under new names [.]"),
         "FOLDER");
   add_definitions(*command, options->definitions);
   add_strict(*command, options->recipe.is_strict);
   add_camera(*command, options->recipe.camera);
   add_settings(*command, options->settings, "film.width=640, integrator.max_depth=8, ID.radius=2");
-  takes_words(command->add_option("--integrator", options->recipe.integrator,
-                                  "Use this method instead of the file's while the camera rests"),
-              integrator_names(), "METHOD");
+  takes_words(
+      command->add_option("--integrator", options->recipe.integrator,
+                          "Use this method instead of the file's while the camera is at rest"),
+      integrator_names(), "METHOD");
   add_texture_memory(*command, options->build);
   add_threads(*command, options->threads);
   command->callback([options] { view_scene(*options); });

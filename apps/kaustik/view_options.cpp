@@ -65,12 +65,12 @@ std::optional<TerminalKind> preview_kind(const std::string& name) {
 
 void add_views(CLI::App& command, ViewOptions& options) {
   takes(command.add_option("--tev", options.tev,
-                           "Show the running picture in the viewer tev there [port 14158]"),
+                           "Show the picture in the viewer tev at this address [port 14158]"),
         "HOST:PORT");
-  auto* preview = command.add_flag(
-      "--preview{auto}", options.preview,
-      "Show the running picture in the terminal, in the way that it knows; or in this one: "
-      "--preview=kitty, iterm, sixel, or blocks, of characters");
+  auto* preview =
+      command.add_flag("--preview{auto}", options.preview,
+                       "Show the picture in the terminal, in a way that it supports, or in the "
+                       "given one: --preview=kitty, iterm, sixel, or blocks of characters");
   takes_words(preview, preview_names(), "");
 }
 

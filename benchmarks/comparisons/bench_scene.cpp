@@ -41,7 +41,7 @@ BenchScene peer_scene(const PeerRow& row) {
   BenchScene scene{peer_prefix + row.name,
                    folder + "/scene.xml",
                    folder + "/reference.exr",
-                   {5, 10, 20},
+                   {5, 20},
                    {1, 2, 3},
                    {},
                    row.bar,
@@ -69,12 +69,8 @@ BenchScene bench_scene(const std::string& name) {
     throw Error(ErrorKind::input, "there is no scene '" + name + "'",
                 "name a folder of scenes/, a file of benchmarks/scenes/, or peer_ and one of "
                 "benchmarks/peer_scenes/");
-  return {name,
-          file,
-          root + "/benchmarks/references/" + name + ".exr",
-          {5, 10, 20, 40, 60},
-          {1, 2},
-          {},
+  return {name,          file,   root + "/benchmarks/references/" + name + ".exr",
+          {5, 20, 60},   {1, 2}, {},
           path_bar(name)};
 }
 

@@ -214,7 +214,7 @@ void add_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--seconds", options.seconds,
-                 "When to look; the last ends the run [5,10,20,40,60; of peer_NAME 5,10,20]")
+                 "When to look; the last ends the run [5,20,60; of peer_NAME 5,20]")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   app.add_option("--seeds", options.seeds, "One run per seed [1,2; of peer_NAME 1,2,3]")

@@ -12,7 +12,7 @@ namespace {
 constexpr int cosine_steps = 16;
 /// Of balls (20 × 4^level triangles): those that are looked at, and lamps, of whose triangles each
 /// is a lamp of its own to other renderers.
-constexpr int fine_level = 6, lamp_level = 2;
+constexpr int fine_level = 6, lamp_level = 4;
 
 float area_of(const TriangleMesh& mesh) {
   double sum = 0;

@@ -36,27 +36,35 @@ Rgb colour_of(const Object& bsdf, const std::string& name, const Rgb& otherwise)
   return colour_in(bsdf, name).value_or(otherwise);
 }
 
+/// Alike on both sides, as other renderers have it.
 std::shared_ptr<Object> matt(const Object& bsdf, const Rgb& reflectance) {
-  auto made = std::make_shared<Object>();
-  made->family = "bsdf";
-  made->type = "diffuse";
-  made->id = bsdf.id;
-  made->place = bsdf.place;
-  made->properties.push_back({"reflectance", reflectance, bsdf.place});
-  return made;
+  auto side = std::make_shared<Object>();
+  side->family = "bsdf";
+  side->type = "diffuse";
+  side->place = bsdf.place;
+  side->properties.push_back({"reflectance", reflectance, bsdf.place});
+  auto both = std::make_shared<Object>();
+  both->family = "bsdf";
+  both->type = "twosided";
+  both->id = bsdf.id;
+  both->place = bsdf.place;
+  both->children.push_back({"", side});
+  return both;
 }
 
 std::shared_ptr<Object> plain_bsdf(const Object& bsdf) {
   constexpr Rgb half{0.5, 0.5, 0.5};
+  if (bsdf.type == "twosided" && bsdf.children.size() == 1) {
+    auto inside = plain_bsdf(*bsdf.children[0].object);
+    inside->id = bsdf.id;
+    return inside;
+  }
   if (bsdf.type == "dielectric") return std::make_shared<Object>(bsdf);
   if (bsdf.type == "diffuse") return matt(bsdf, colour_of(bsdf, "reflectance", half));
   if (bsdf.type == "phong" || bsdf.type == "thinphong")
     return matt(bsdf, colour_of(bsdf, "diffuse_reflectance", half));
   if (bsdf.type == "roughconductor") return matt(bsdf, metal_reflectance);
-  if (bsdf.type != "twosided" || bsdf.children.size() != 1) refuse(bsdf, "such bsdf");
-  auto both = std::make_shared<Object>(bsdf);
-  both->children[0].object = plain_bsdf(*bsdf.children[0].object);
-  return both;
+  refuse(bsdf, "such bsdf");
 }
 
 class PlainRoom {

@@ -28,7 +28,7 @@ TEST_F(FirstSteps, AreToldWithoutACommand) {
        {"Kaustik ", "\n  kaustik example caustic ",
         "\n  kaustik render caustic.xml --time 20s -o caustic.png ",
         "\n  kaustik view caustic.xml ", " render      Render a scene to image files\n",
-        " tonemap     Turn high dynamic range images into ones for displays\n",
+        " tonemap     Convert high dynamic range images for displays\n",
         "\nThe manual: man kaustik", "kaustik help"})
     EXPECT_TRUE(contains(result.err, part)) << part << " is missing in\n" << result.err;
   EXPECT_TRUE(files().empty());

@@ -26,10 +26,10 @@ std::vector<Parameter> field_of_view_parameters() {
                        .range(1e-4, 179.9)
                        .in("degrees")),
           optional(text_parameter("focal_length", "50mm",
-                                  "Focal length for 35 mm film, instead of fov (a number and mm)."))
+                                  "Focal length on 35 mm film, instead of fov: a number and mm."))
               .instead_of("fov"),
           choice_parameter("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"},
-                           "What fov is measured along.")};
+                           "Axis along which fov is measured.")};
 }
 
 Vec2f tan_half_fov(const Arguments& arguments, double aspect) {

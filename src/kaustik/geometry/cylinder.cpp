@@ -266,8 +266,8 @@ const TypeInfo& cylinder_info() {
        number_parameter("radius", 1.0, "Radius of the cylinder.")
            .range(smallest_length, largest_length)
            .in("m"),
-       to_world_parameter(
-           "Places the cylinder in the world; may make its base an ellipse and let it lean."),
+       to_world_parameter("Places the cylinder in the world. It may make the base an ellipse and "
+                          "let the axis lean."),
        boolean_parameter("flip_normals", false, "The inside is the front.")}};
   return info;
 }

@@ -139,8 +139,8 @@ const TypeInfo& disk_info() {
       "shape",
       "disk",
       "The unit disk in the xy plane, facing +z.",
-      {to_world_parameter("Places the disk in the world; may make it an ellipse.").leaving(2),
-       boolean_parameter("flip_normals", false, "Faces the other way.")}};
+      {to_world_parameter("Places the disk in the world. It may make it an ellipse.").leaving(2),
+       boolean_parameter("flip_normals", false, "Makes the disk face -z.")}};
   return info;
 }
 

@@ -101,19 +101,21 @@ const TypeInfo& heightfield_info() {
   static const TypeInfo info{
       "shape",
       "heightfield",
-      "A picture as heights along z over the square [-1, 1] x [-1, 1], its upper row at y = -1; a "
-      "mesh with a vertex for each pixel.",
-      {file_parameter("filename", "The picture, whose luminances are the heights.").textured(),
-       array_parameter("heights", {0, 0}, "Instead of the picture: rows of numbers.")
+      "Shows a picture as heights along z over the square [-1, 1] x [-1, 1], its upper row at y = "
+      "-1. Each pixel becomes a vertex of a mesh.",
+      {file_parameter("filename", "Picture whose luminances are the heights.").textured(),
+       array_parameter("heights", {0, 0}, "Heights as rows of numbers, instead of the picture.")
            .instead_of("filename"),
        number_parameter("scale", 1, "Factor on the heights.")
            .range(-largest_length, largest_length),
        optional(integer_parameter("width", 2,
-                                  "How many heights are taken of a texture along u; as many as the "
-                                  "picture that it is has, else 256.")
+                                  "Number of heights along u. The default is the width of a "
+                                  "bitmap, and 256 for other textures.")
                     .range(2, 8192)),
-       optional(integer_parameter("height", 2, "The same along v.").range(2, 8192)),
-       boolean_parameter("shading_normals", true, "Smooth normals; else those of the faces."),
+       optional(
+           integer_parameter("height", 2, "Number of heights along v, likewise.").range(2, 8192)),
+       boolean_parameter("shading_normals", true,
+                         "Smooth normals. If false, each face has its own."),
        boolean_parameter("flip_normals", false, "Turns the surface inside out."),
        to_world_parameter("Places the square in the world.").leaving(2)}};
   return info;

@@ -142,14 +142,15 @@ std::vector<Parameter> mesh_buffer_parameters() {
           required(array_parameter("faces", {0, 3},
                                    "The three vertices of each triangle, counted from 0.")
                        .integers()),
-          array_parameter("normals", {0, 3}, "Of each vertex, of any length."),
+          array_parameter("normals", {0, 3}, "Normal of each vertex, of any length."),
           array_parameter("uv", {0, 2}, "Texture coordinates of each vertex."),
           array_parameter("vertex_color", {0, 3},
-                          "A colour of each vertex, for textures of type mesh_attribute: linear "
-                          "floats, or integers as in 8-bit pictures."),
-          array_parameter("face_color", {0, 3}, "A colour of each triangle."),
-          array_parameter("vertex_value", {0}, "A number of each vertex, for the same."),
-          array_parameter("face_value", {0}, "A number of each triangle.")};
+                          "Colour of each vertex, for textures of type mesh_attribute: linear "
+                          "floats, or sRGB integers as in 8-bit pictures."),
+          array_parameter("face_color", {0, 3}, "Colour of each triangle, likewise."),
+          array_parameter("vertex_value", {0},
+                          "Number at each vertex, for textures of type mesh_attribute."),
+          array_parameter("face_value", {0}, "Number at each triangle, likewise.")};
 }
 
 }  // namespace kaustik

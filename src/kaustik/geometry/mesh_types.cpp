@@ -16,11 +16,11 @@ std::vector<Parameter> mesh_option_parameters(bool flip_tex_coords) {
   return {
       to_world_parameter("Places the mesh in the world.").leaving(2),
       boolean_parameter("face_normals", false,
-                        "Flat faces: normals that are given are dropped. Otherwise a mesh without "
+                        "Flat faces, without the normals of the file. If false, a mesh without "
                         "normals gets smooth ones."),
       optional(number_parameter("max_smooth_angle", 0,
-                                "Makes the normals anew: smooth but at creases, edges between "
-                                "faces that are turned against one another by more than that.")
+                                "Computes new normals: smooth, except at edges whose faces differ "
+                                "in direction by more than this angle.")
                    .range(0, 180)
                    .in("degrees")),
       boolean_parameter("flip_normals", false, "Turns the surface inside out."),
@@ -98,10 +98,11 @@ const TypeInfo& obj_info() {
     made.parameters.insert(
         made.parameters.begin() + 1,
         {integer_parameter("shape_index", -1,
-                           "Only one of the parts that lines 'g' and 'usemtl' divide the file "
-                           "into, counted from 0; -1: all.")
+                           "Number of one part to load, from 0; lines 'g' and 'usemtl' divide the "
+                           "file into parts. -1: all parts.")
              .range(-1, 0x7fffffff),
-         optional(text_parameter("material", "", "Only the faces of that material ('usemtl').")),
+         optional(
+             text_parameter("material", "", "Loads only the faces of this material ('usemtl').")),
          ignored_parameter("collapse", ParameterKind::boolean)});
     return made;
   }();
@@ -114,7 +115,7 @@ std::unique_ptr<Shape> create_obj(const Arguments& arguments) {
 const TypeInfo& ply_info() {
   static const TypeInfo info = [] {
     TypeInfo made{"shape", "ply",
-                  "Triangle mesh from a PLY file (text, binary of either byte order).",
+                  "Triangle mesh from a PLY file (text, or binary of either byte order).",
                   file_mesh_parameters(false)};
     made.parameters.push_back(ignored_parameter("srgb", ParameterKind::boolean));
     return made;
@@ -131,7 +132,7 @@ const TypeInfo& serialized_info() {
                   file_mesh_parameters(false)};
     made.parameters.insert(
         made.parameters.begin() + 1,
-        integer_parameter("shape_index", 0, "Which of the file's meshes, counted from 0.")
+        integer_parameter("shape_index", 0, "Number of the mesh in the file, from 0.")
             .range(0, 0x7fffffff));
     return made;
   }();
@@ -177,7 +178,7 @@ MeshFile unplaced_mesh(const Arguments& arguments) {
 
 const TypeInfo& mesh_info() {
   static const TypeInfo info{"shape", "mesh",
-                             "Triangle mesh from the buffers of a program; scene files have none.",
+                             "Triangle mesh from a program's buffers. Scene files cannot have it.",
                              with_options(mesh_buffer_parameters(), false)};
   return info;
 }

@@ -214,7 +214,7 @@ const TypeInfo& sdf_info() {
   static const TypeInfo info{
       "shape",
       "sdf",
-      "A solid given by a signed distance field; cannot be a light.",
+      "A solid given by a signed distance field. It cannot be a light.",
       {choice_parameter("field", "menger", {"menger", "mandelbulb"}, "Which solid."),
        integer_parameter("iterations", 4, "Levels of detail.").range(1, 16),
        point_parameter("center", Vec3d(0, 0, 0), "Centre of the solid."),

@@ -111,13 +111,14 @@ const TypeInfo& sdfgrid_info() {
   static const TypeInfo info{
       "shape",
       "sdfgrid",
-      "The surface where a grid of signed distances is zero, over the cube from (0, 0, 0) to "
-      "(1, 1, 1); cannot be a light.",
+      "The zero surface of a grid of signed distances over the cube from (0, 0, 0) to (1, 1, 1). "
+      "It cannot be a light.",
       {file_parameter("filename", "File of Mitsuba's format VOL, with one channel."),
-       array_parameter("grid", {}, "Instead of the file: distances [z, y, x], negative inside.")
+       array_parameter("grid", {},
+                       "Distances [z, y, x] from a buffer, instead of the file; negative inside.")
            .instead_of("filename"),
        choice_parameter("normals", "smooth", {"smooth", "analytic"},
-                        "Shading normals: blended between cells, or those of the surface."),
+                        "Shading normals: blended between cells, or the surface's own."),
        to_world_parameter("Places the cube in the world.")}};
   return info;
 }

@@ -181,7 +181,7 @@ const TypeInfo& sphere_info() {
        number_parameter("radius", 1.0, "Radius of the sphere.")
            .range(smallest_length, largest_length)
            .in("m"),
-       to_world_parameter("Places the sphere in the world; may make it an ellipsoid."),
+       to_world_parameter("Places the sphere in the world. It may make it an ellipsoid."),
        boolean_parameter("flip_normals", false, "The inside is the front.")}};
   return info;
 }

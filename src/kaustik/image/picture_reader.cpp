@@ -110,10 +110,9 @@ std::vector<Parameter> picture_parameters(const std::string& of_file,
   std::vector<Parameter> rows = {
       file_parameter("filename",
                      "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file" + of_file),
-      array_parameter(
-          "data", {},
-          "A picture [rows, columns] or [rows, columns, 1, 3 or 4] from the buffer of a "
-          "program instead of the file: uint8, uint16, float32 or float64.")
+      array_parameter("data", {},
+                      "Picture [rows, columns] or [rows, columns, 1, 3 or 4] from a program's "
+                      "buffer, instead of the file: uint8, uint16, float32 or float64.")
           .instead_of("filename")};
   for (Parameter& other : others) rows.push_back(std::move(other));
   return rows;
@@ -121,8 +120,8 @@ std::vector<Parameter> picture_parameters(const std::string& of_file,
 
 Parameter gamma_parameter() {
   return number_parameter("gamma", 0,
-                          "How stored values become linear: by this power; 1: they are; -1: they "
-                          "are sRGB encoded; 0: as is usual for the kind of file.")
+                          "Exponent that makes stored values linear. 1: they are linear; -1: they "
+                          "are sRGB; 0: the usual encoding of the file's format.")
       .range(-1, 10);
 }
 

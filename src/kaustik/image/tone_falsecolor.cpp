@@ -137,18 +137,19 @@ class FalseColor : public ToneOperator {
 
 std::vector<Parameter> parameters() {
   return {choice_parameter("quantity", "auto", {"auto", "luminance", "illuminance"},
-                           "What the layer holds: radiance, shown in cd/m², or irradiance, in lx; "
-                           "auto: as the picture's metadata 'quantity' says, else radiance. Both "
+                           "Content of the layer: radiance, shown in cd/m², or irradiance, in lx; "
+                           "auto: the picture's metadata 'quantity', or radiance without it. Both "
                            "are 179 lm/W times the photopic part."),
-          choice_parameter("scale", "linear", {"linear", "log"}, "How values become colours."),
-          optional(number_parameter("minimum", 0, "Where the scale starts; else a round number."))
+          choice_parameter("scale", "linear", {"linear", "log"},
+                           "Scale on which values become colours."),
+          optional(number_parameter("minimum", 0, "Start of the scale; a round number if absent."))
               .in("cd/m² or lx"),
-          optional(number_parameter("maximum", 1,
-                                    "Where it ends; else a round number that 98 % of the "
-                                    "picture stay below."))
+          optional(number_parameter(
+                       "maximum", 1,
+                       "End of the scale; if absent, a round number above 98 % of the pixels."))
               .in("cd/m² or lx"),
           choice_parameter("contours", "none", {"none", "lines", "bands"},
-                           "Lines at the scale's numbers, or one colour between each two."),
+                           "Lines at the numbers of the scale, or one colour between two numbers."),
           boolean_parameter("legend", true, "Draw the scale to the right of the picture.")};
 }
 

@@ -86,25 +86,25 @@ std::vector<Parameter> histogram_parameters() {
       number_parameter("display_maximum", 100, "Luminance of the display's white.")
           .range(1e-3, 1e6)
           .in("cd/m²"),
-      number_parameter("display_range", 100, "The display's white over its black.")
+      number_parameter("display_range", 100, "Ratio of the display's white to its black.")
           .range(1.01, 1e9),
       optional(number_parameter("display_minimum", 1,
-                                "Luminance of the display's black, in place of display_range."))
+                                "Luminance of the display's black, instead of display_range."))
           .range(1e-9, 1e6)
           .in("cd/m²"),
       number_parameter("exposure", 0,
-                       "Doublings of the scene's light; only models of the eye depend on it.")
+                       "Exposure added to the scene. It only affects the models of the eye.")
           .range(-100, 100)
           .in("stops"),
-      boolean_parameter("human", false, "What the next four default to."),
+      boolean_parameter("human", false, "Default of the next four parameters."),
       boolean_parameter("contrast_sensitivity", false,
-                        "Show no more contrast than an eye sees at that luminance (instead of no "
-                        "more than the scene has)."),
-      boolean_parameter("glare", false, "The veil of light that is scattered inside the eye."),
-      boolean_parameter("acuity", false, "Blur what is too dark to be seen sharply."),
-      boolean_parameter("color_sensitivity", false, "Colours fade in the dark."),
+                        "Limit contrast to what an eye sees at this luminance. If false, limit it "
+                        "to the contrast of the scene."),
+      boolean_parameter("glare", false, "Add the veil of light that the eye scatters."),
+      boolean_parameter("acuity", false, "Blur dark regions that an eye does not see sharply."),
+      boolean_parameter("color_sensitivity", false, "Let colours fade in the dark."),
       boolean_parameter("smooth", true,
-                        "No bands where few parts of the picture are; false: the paper's "
+                        "Avoid bands at luminances that few pixels have. False: the paper's "
                         "algorithm to the letter."),
       integer_parameter("bins", 100, "Bins of the histogram of log luminance.").range(2, 100000)};
 }
@@ -113,8 +113,8 @@ std::vector<Parameter> histogram_parameters() {
 
 ToneOperatorType histogram_tone() {
   return {{"tonemap", "histogram",
-           "Histogram adjustment, with models of human vision (Ward Larson, Rushmeier and Piatko "
-           "1997): what is visible in the scene is visible on the display.",
+           "Histogram adjustment with models of human vision (Ward Larson, Rushmeier and Piatko "
+           "1997): details that are visible in the scene stay visible on the display.",
            histogram_parameters()},
           [](const Arguments& arguments) -> std::unique_ptr<ToneOperator> {
             return std::make_unique<Histogram>(arguments);

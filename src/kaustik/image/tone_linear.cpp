@@ -21,25 +21,26 @@ class Linear : public ToneOperator {
 }  // namespace
 
 Parameter exposure_parameter() {
-  return number_parameter("exposure", 0, "Doublings of the light before it is shown.")
+  return number_parameter("exposure", 0, "Exposure added before the picture is shown.")
       .range(-100, 100)
       .in("stops");
 }
 
 ToneOperatorType srgb_tone() {
-  return {{"tonemap",
-           "srgb",
-           "Radiance 1 W/(sr·m²) becomes white, with the film's exposure; nothing else is changed.",
-           {}},
-          [](const Arguments&) -> std::unique_ptr<ToneOperator> {
-            return std::make_unique<Linear>(1.0f);
-          }};
+  return {
+      {"tonemap",
+       "srgb",
+       "Maps a radiance of 1 W/(sr·m²) to white, with the film's exposure. Nothing else changes.",
+       {}},
+      [](const Arguments&) -> std::unique_ptr<ToneOperator> {
+        return std::make_unique<Linear>(1.0f);
+      }};
 }
 
 ToneOperatorType linear_tone() {
   return {{"tonemap",
            "linear",
-           "Radiance is multiplied by 2^exposure, and the film's; then 1 becomes white.",
+           "Multiplies radiance by 2^exposure and by the film's exposure. Then 1 becomes white.",
            {exposure_parameter()}},
           [](const Arguments& arguments) -> std::unique_ptr<ToneOperator> {
             return std::make_unique<Linear>(float(std::exp2(arguments.number("exposure"))));

@@ -138,24 +138,25 @@ class Reinhard : public ToneOperator {
 }  // namespace
 
 ToneOperatorType reinhard_tone() {
-  return {{"tonemap",
-           "reinhard",
-           "The photographic operator of Reinhard et al. (2002): a curve as of film, and if asked "
-           "for dodging and burning.",
-           {number_parameter("key", 0.18, "What the mean (of logarithms) luminance becomes.")
-                .range(1e-6, 1e6),
-            number_or_name_parameter("white", std::string("auto"), {"auto"},
-                                     "Luminance, on the key's scale, that becomes white; auto: "
-                                     "the brightest pixel.")
-                .range(1e-6, 1e30),
-            boolean_parameter("local", false,
-                              "Dodging and burning: contrast against the surroundings of a pixel, "
-                              "as far as they are alike."),
-            number_parameter("sharpening", 8, "Strength of dodging and burning (the paper's φ).")
-                .range(0, 20)}},
-          [](const Arguments& arguments) -> std::unique_ptr<ToneOperator> {
-            return std::make_unique<Reinhard>(arguments);
-          }};
+  return {
+      {"tonemap",
+       "reinhard",
+       "The photographic operator of Reinhard et al. (2002): a film-like curve, optionally with "
+       "dodging and burning.",
+       {number_parameter("key", 0.18, "Display value of the mean luminance (mean of logarithms).")
+            .range(1e-6, 1e6),
+        number_or_name_parameter(
+            "white", std::string("auto"), {"auto"},
+            "Luminance that becomes white, on the key's scale; auto: the brightest pixel.")
+            .range(1e-6, 1e30),
+        boolean_parameter(
+            "local", false,
+            "Dodging and burning: adapts each pixel to the region of similar luminance around it."),
+        number_parameter("sharpening", 8, "Strength of dodging and burning (the paper's φ).")
+            .range(0, 20)}},
+      [](const Arguments& arguments) -> std::unique_ptr<ToneOperator> {
+        return std::make_unique<Reinhard>(arguments);
+      }};
 }
 
 }  // namespace kaustik

@@ -29,7 +29,7 @@ ForeignIntegrator row(std::vector<std::string> names, std::string native, std::s
   for (const Parameter& parameter : rows)
     if (!type || !type->info.find(parameter.name)) foreign.info.parameters.push_back(parameter);
   names.erase(names.begin());
-  if (!names.empty()) sentence += fmt::format(" The same: {}.", fmt::join(names, ", "));
+  if (!names.empty()) sentence += fmt::format(" Also: {}.", fmt::join(names, ", "));
   foreign.info.sentence = std::move(sentence);
   return foreign;
 }
@@ -39,18 +39,18 @@ ForeignIntegrator same(std::vector<std::string> names, const std::string& native
                        const Rows& rows) {
   return row(
       std::move(names), native,
-      fmt::format("Other renderers' name of '{0}'; takes the parameters of '{0}', too.", native),
+      fmt::format("Another renderer's name for '{0}'; takes the parameters of '{0}', too.", native),
       rows);
 }
 
 /// What is nearest to a method that is not here.
 ForeignIntegrator nearest(std::vector<std::string> names, const std::string& native,
                           const Rows& rows) {
-  ForeignIntegrator foreign =
-      row(std::move(names), native,
-          fmt::format("Not here: '{0}' renders the picture; takes the parameters of '{0}', too.",
-                      native),
-          rows);
+  ForeignIntegrator foreign = row(
+      std::move(names), native,
+      fmt::format("Not implemented: '{0}' renders the picture; takes the parameters of '{0}', too.",
+                  native),
+      rows);
   foreign.is_same = false;
   return foreign;
 }
@@ -78,7 +78,7 @@ ForeignIntegrator with_implied(ForeignIntegrator foreign, const std::string& nam
 }
 
 ForeignIntegrator holder(std::vector<std::string> names, const Rows& rows) {
-  return row(std::move(names), "", "Left out: the integrator in it renders the picture.", rows);
+  return row(std::move(names), "", "Ignored: the integrator inside it renders the picture.", rows);
 }
 
 ForeignIntegrator of_layers(ForeignIntegrator foreign) {
@@ -88,7 +88,8 @@ ForeignIntegrator of_layers(ForeignIntegrator foreign) {
 
 ForeignIntegrator refused(std::vector<std::string> names, const std::string& remedy) {
   ForeignIntegrator foreign =
-      row(std::move(names), "", "Refused: shows no light, as layers of the EXR do.", {});
+      row(std::move(names), "",
+          "Refused: it computes no radiance. Layers of the EXR hold these values.", {});
   foreign.refusal = remedy;
   return foreign;
 }

@@ -13,14 +13,14 @@ struct LightTracer::Counts {
 };
 
 const TypeInfo& LightTracer::info() {
-  static const TypeInfo info{"integrator",
-                             "lighttracer",
-                             "Unbiased light paths splatted to the camera; finds caustics of small "
-                             "lamps, but nothing that "
-                             "the camera sees by a mirror, through glass or beyond the scene.",
-                             {components_parameter(), max_depth_parameter(),
-                              ignored_parameter("rr_depth", ParameterKind::integer),
-                              aim_parameter(), hide_emitters_parameter()}};
+  static const TypeInfo info{
+      "integrator",
+      "lighttracer",
+      "Unbiased light paths, splatted to the camera. It finds caustics of small lamps, but nothing "
+      "in mirrors, behind glass or beyond the scene.",
+      {components_parameter(), max_depth_parameter(),
+       ignored_parameter("rr_depth", ParameterKind::integer), aim_parameter(),
+       hide_emitters_parameter()}};
   return info;
 }
 

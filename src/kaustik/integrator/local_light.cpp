@@ -5,15 +5,14 @@ namespace kaustik {
 std::vector<Parameter> LocalLight::parameters() {
   return {
       integer_parameter("light_samples", 1,
-                        "Samples of direct light at a surface, shared among the lights by incident "
-                        "flux; each has one at least.")
+                        "Samples of direct light at a surface. They are divided among the lights "
+                        "by incident flux, at least one each.")
           .range(1, 4096),
       boolean_parameter("shadows", true,
-                        "Light that another surface holds off is left out; without, lamps shine "
-                        "through everything."),
-      color_parameter("ambient", 0,
-                      "Ambient light, in place of all that surfaces send one another: radiance "
-                      "that comes evenly from everywhere.")
+                        "Surfaces cast shadows. If false, lamps shine through everything."),
+      color_parameter(
+          "ambient", 0,
+          "Ambient light: uniform radiance from all directions, instead of interreflection.")
           .range(0, 1e30)
           .in("W/(sr m²)"),
   };

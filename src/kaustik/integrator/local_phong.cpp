@@ -15,7 +15,7 @@ std::vector<Parameter> parameters() {
 const TypeInfo& LocalPhong::info() {
   static const TypeInfo info{"integrator", "localphong",
                              "Local illumination as in Phong's model: direct light by each "
-                             "surface's bsdf, and ambient light; no mirror images.",
+                             "surface's bsdf, plus ambient light. No mirror images.",
                              parameters()};
   return info;
 }

@@ -10,8 +10,8 @@ std::vector<Parameter> ray_tracing_parameters() {
   rows.insert(rows.begin(), {components_parameter(), max_depth_parameter()});
   rows.push_back(
       integer_parameter("rr_depth", 5,
-                        "Mirrors and refractions in a row that are followed both ways; behind "
-                        "them one way is chosen by chance, with Russian roulette.")
+                        "Number of successive mirrors and refractions at which both ways are "
+                        "followed. After that, chance chooses one way, with Russian roulette.")
           .range(0, 16));
   return rows;
 }

@@ -195,12 +195,12 @@ LightType area_light_type() {
   static const TypeInfo info{
       "emitter",
       "area",
-      "Diffuse light from the surface of the shape that it stands in, on the side of the normal.",
-      {color_parameter("radiance", 1, "Emitted radiance; with a texture it varies over the shape.")
+      "Diffuse emission of the shape that holds it, on the side of the normal.",
+      {color_parameter("radiance", 1, "Emitted radiance. With a texture it varies over the shape.")
            .in("W/(sr·m²)")
            .textured(),
        number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
-       boolean_parameter("two_sided", false, "The back shines as the front does."),
+       boolean_parameter("two_sided", false, "Makes the back emit like the front."),
        shadow_samples_parameter(), visible_parameter(), ignored_sampling_weight()}};
   return {info, true, create_area};
 }

@@ -26,10 +26,9 @@ float ClassicalAttenuation::factor(const Vec3f& reference) const {
 }
 
 Parameter attenuation_parameter() {
-  return optional(point_parameter(
-      "attenuation", {0, 0, 1},
-      "Constant, linear and quadratic part of the fall with distance in classical ray tracing "
-      "alone; photons, paths and everything else physical ignore it."));
+  return optional(point_parameter("attenuation", {0, 0, 1},
+                                  "Constant, linear and quadratic attenuation with distance. Only "
+                                  "classical ray tracing uses it; physical methods ignore it."));
 }
 
 }  // namespace kaustik

@@ -41,11 +41,11 @@ std::unique_ptr<Light> create_background(const LightInputs& inputs) {
 }  // namespace
 
 LightType background_light_type() {
-  static const TypeInfo info{
-      "emitter",
-      "background",
-      "A colour where the view leaves the scene, also by mirrors and glass; it lights nothing.",
-      {color_parameter("radiance", 1, "Radiance that is seen.").in("W/(sr·m²)")}};
+  static const TypeInfo info{"emitter",
+                             "background",
+                             "A colour where the view leaves the scene, also by mirrors and "
+                             "through glass. It lights nothing.",
+                             {color_parameter("radiance", 1, "Visible radiance.").in("W/(sr·m²)")}};
   return {info, false, create_background};
 }
 

@@ -181,17 +181,16 @@ std::unique_ptr<Light> create_directional_area(const LightInputs& inputs) {
 }  // namespace
 
 LightType directional_area_light_type() {
-  static const TypeInfo info{
-      "emitter",
-      "directionalarea",
-      "A beam: parallel light from the flat shape that it stands in, along its normal alone; rays "
-      "never meet it.",
-      {color_parameter("radiance", 1,
-                       "What a surface across the beam receives, as Mitsuba counts it; with a "
-                       "texture it varies over the shape.")
-           .in("W/m²")
-           .textured(),
-       ignored_sampling_weight()}};
+  static const TypeInfo info{"emitter",
+                             "directionalarea",
+                             "A beam of parallel light from the flat shape that holds it, along "
+                             "its normal. Rays never hit it by chance.",
+                             {color_parameter("radiance", 1,
+                                              "Irradiance on a surface across the beam, as Mitsuba "
+                                              "counts it. With a texture it varies over the shape.")
+                                  .in("W/m²")
+                                  .textured(),
+                              ignored_sampling_weight()}};
   return {info, true, create_directional_area};
 }
 

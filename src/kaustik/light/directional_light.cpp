@@ -83,12 +83,13 @@ LightType directional_light_type() {
       "emitter",
       "directional",
       "Parallel light from infinitely far away.",
-      {color_parameter("irradiance", 1, "What a surface across the direction receives.").in("W/m²"),
+      {color_parameter("irradiance", 1, "Irradiance on a surface across the direction.").in("W/m²"),
        optional(point_parameter("direction", {0, 0, 1},
-                                "In which light travels; instead of `to_world`."))
+                                "Direction in which light travels, instead of `to_world`."))
            .instead_of("to_world")
            .moved(WhenMoved::turned),
-       to_world_parameter("World from the light, which shines along its +z."),
+       to_world_parameter(
+           "Transform from the light's space to the world. The light shines along +z."),
        ignored_sampling_weight()}};
   return {info, false, create_directional};
 }

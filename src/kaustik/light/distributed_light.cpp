@@ -168,14 +168,15 @@ std::unique_ptr<Light> create_distributed(const LightInputs& inputs) {
 /// Rows that both have.
 std::vector<Parameter> with_shared_rows(std::vector<Parameter> rows) {
   const std::vector<Parameter> shared = {
-      number_parameter("radius", 0.1, "Of the sphere, scaled by `to_world`.")
+      number_parameter("radius", 0.1, "Radius of the sphere, which `to_world` scales.")
           .range(1e-6, largest_length)
           .in("m"),
-      color_parameter("intensity", 1, "Radiant intensity from afar (a spot's within its beam).")
+      color_parameter("intensity", 1,
+                      "Radiant intensity at a large distance (of a spot: within its beam).")
           .in("W/sr"),
-      optional(
-          color_parameter("power", 1, "All the light it gives; instead of `intensity`.").in("W")),
-      to_world_parameter("World from the light, whose centre is the origin."),
+      optional(color_parameter("power", 1, "Total emitted flux, instead of `intensity`.").in("W")),
+      to_world_parameter(
+          "Transform from the light's space to the world. The centre is at the origin."),
       attenuation_parameter(),
       shadow_samples_parameter(),
       ignored_sampling_weight()};
@@ -188,19 +189,19 @@ std::vector<Parameter> with_shared_rows(std::vector<Parameter> rows) {
 LightType distributed_light_type() {
   static const TypeInfo info{
       "emitter", "distributed",
-      "A glowing ball that is no part of the scene: invisible, without a shadow of its own, but "
-      "with soft ones behind what it lights.",
-      with_shared_rows(
-          {optional(point_parameter("position", {0, 0, 0}, "Its centre; instead of `to_world`."))
-               .instead_of("to_world")
-               .moved(WhenMoved::origin)})};
+      "A glowing ball that no ray hits. It is invisible and casts no shadow, but objects in its "
+      "light cast soft shadows.",
+      with_shared_rows({optional(point_parameter("position", {0, 0, 0},
+                                                 "Centre of the ball, instead of `to_world`."))
+                            .instead_of("to_world")
+                            .moved(WhenMoved::origin)})};
   return {info, false, create_distributed};
 }
 
 LightType distributed_spot_light_type() {
   static const TypeInfo info{
       "emitter", "distributedspot",
-      "The ball of `distributed`, shining into a cone about its +z axis as `spot` does.",
+      "The ball of `distributed`, shining into a cone about its +z axis like `spot`.",
       with_shared_rows(spot_cone_parameters())};
   return {info, false, create_distributed};
 }

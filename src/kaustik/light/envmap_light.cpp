@@ -182,7 +182,9 @@ LightType envmap_light_type() {
       picture_parameters(
           ": radiance.",
           {number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
-           gamma_parameter(), to_world_parameter("World from the picture, whose upper edge is +y."),
+           gamma_parameter(),
+           to_world_parameter(
+               "Transform from the picture's space to the world. The upper edge is +y."),
            visible_parameter(), ignored_parameter("mis_compensation", ParameterKind::boolean),
            ignored_parameter("cache", ParameterKind::boolean), ignored_sampling_weight()})};
   return {info, false, create_envmap};

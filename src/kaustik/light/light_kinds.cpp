@@ -39,19 +39,17 @@ std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const Lig
 }
 
 Parameter shadow_samples_parameter() {
-  return integer_parameter(
-             "shadow_samples", 1,
-             "Most shadow rays for a sample of this light: a quarter of them first (at least four, "
-             "at "
-             "most 16), the others where these disagree (penumbra); half as many at each deeper "
-             "recursion level.")
+  return integer_parameter("shadow_samples", 1,
+                           "Maximum of shadow rays for a sample of this light. A quarter (4 to 16) "
+                           "is traced first, the rest only if these disagree (penumbra). Each "
+                           "deeper recursion level halves the number.")
       .range(1, 4096);
 }
 
 Parameter visible_parameter() {
   return boolean_parameter("visible", true,
-                           "The camera sees the light itself. If not, it looks past it, and all "
-                           "that is reflected, refracted or scattered on the way still meets it.");
+                           "The camera sees the light itself. If false, the camera looks past it; "
+                           "reflected, refracted and scattered rays still hit it.");
 }
 
 Parameter ignored_sampling_weight() {

@@ -77,13 +77,14 @@ LightType point_light_type() {
   static const TypeInfo info{
       "emitter",
       "point",
-      "Light from a point, alike in all directions.",
+      "Light from a point, equal in all directions.",
       {color_parameter("intensity", 1, "Radiant intensity.").in("W/sr"),
-       optional(point_parameter("position", {0, 0, 0}, "Where it is; instead of `to_world`."))
+       optional(point_parameter("position", {0, 0, 0}, "Position, instead of `to_world`."))
            .instead_of("to_world")
            .moved(WhenMoved::origin),
-       to_world_parameter("World from the light, which is at the origin."), attenuation_parameter(),
-       ignored_sampling_weight()}};
+       to_world_parameter(
+           "Transform from the light's space to the world. The light is at the origin."),
+       attenuation_parameter(), ignored_sampling_weight()}};
   return {info, false, create_point};
 }
 

@@ -114,16 +114,17 @@ LightType projector_light_type() {
   static const TypeInfo info = [] {
     std::vector<Parameter> rows = {
         color_parameter("irradiance", 1,
-                        "What a surface across the axis gets at the distance 1, over π; with a "
-                        "texture it is a picture, upright as a camera would take it.")
+                        "Irradiance on a surface across the axis at distance 1, divided by π. With "
+                        "a texture it is a picture, upright as a camera would take it.")
             .in("W/m²")
             .textured(),
         number_parameter("scale", 1, "Factor on the irradiance.").range(0, 1e30)};
     for (Parameter& row : field_of_view_parameters()) rows.push_back(std::move(row));
-    rows.push_back(to_world_parameter("World from the light, which shines along its +z."));
+    rows.push_back(to_world_parameter(
+        "Transform from the light's space to the world. The light shines along +z."));
     rows.push_back(attenuation_parameter());
     rows.push_back(ignored_sampling_weight());
-    return TypeInfo{"emitter", "projector", "A picture thrown from a point.", rows};
+    return TypeInfo{"emitter", "projector", "A picture projected from a point.", rows};
   }();
   return {info, false, create_projector};
 }

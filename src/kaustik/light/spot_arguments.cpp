@@ -5,19 +5,19 @@
 namespace kaustik {
 
 std::vector<Parameter> spot_cone_parameters() {
-  return {number_parameter("cutoff_angle", 20, "Angle from the axis from which on it is dark.")
-              .range(0, 180)
-              .in("degrees"),
-          optional(number_parameter("beam_width", 15,
-                                    "Angle from the axis from which on intensity falls; 3/4 of "
-                                    "`cutoff_angle` if not given.")
-                       .range(0, 180)
-                       .in("degrees")),
-          choice_parameter("falloff", "linear", {"linear", "smooth", "square", "none"},
-                           "How intensity falls from the beam to the cutoff: linearly with the "
-                           "angle (Mitsuba), as a smooth step of the cosine (pbrt), with the "
-                           "square of its share (glTF), or not at all before the cutoff "
-                           "(Radiance).")};
+  return {
+      number_parameter("cutoff_angle", 20, "Angle to the axis beyond which there is no light.")
+          .range(0, 180)
+          .in("degrees"),
+      optional(number_parameter("beam_width", 15,
+                                "Angle to the axis at which the intensity begins to fall; 3/4 of "
+                                "`cutoff_angle` if absent.")
+                   .range(0, 180)
+                   .in("degrees")),
+      choice_parameter("falloff", "linear", {"linear", "smooth", "square", "none"},
+                       "Fall of the intensity from beam to cutoff: linear in the angle (Mitsuba), "
+                       "a smooth step of the cosine (pbrt), the square of the linear step of the "
+                       "cosine (glTF), or none before the cutoff (Radiance).")};
 }
 
 SpotCone spot_cone_argument(const Arguments& arguments) {

@@ -145,10 +145,11 @@ LightType spot_light_type() {
     rows.insert(rows.begin(),
                 color_parameter("intensity", 1, "Radiant intensity within the beam.").in("W/sr"));
     rows.push_back(color_parameter("texture", 1,
-                                   "Factor on the intensity; a texture is thrown along the cone, "
-                                   "its square about the circle of the cutoff.")
+                                   "Factor on the intensity. A texture is projected along the "
+                                   "cone; its square encloses the circle of the cutoff.")
                        .textured());
-    rows.push_back(to_world_parameter("World from the light, which shines along its +z."));
+    rows.push_back(to_world_parameter(
+        "Transform from the light's space to the world. The light shines along +z."));
     rows.push_back(attenuation_parameter());
     rows.push_back(ignored_sampling_weight());
     return TypeInfo{"emitter", "spot", "Light from a point into a cone about its +z axis.", rows};

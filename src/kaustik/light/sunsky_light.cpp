@@ -290,48 +290,48 @@ enum class Parts { sun, sky, both };
 
 std::vector<Parameter> parameters(Parts parts) {
   std::vector<Parameter> table = {
-      number_parameter("turbidity", 3,
-                       "Haze of the air: 1 is air without any, 2 very clear, 3 clear, 6 warm and "
-                       "moist, 10 hazy.")
+      number_parameter(
+          "turbidity", 3,
+          "Haze of the air: 1 pure air, 2 very clear, 3 clear, 6 warm and moist, 10 hazy.")
           .range(1, 10)
           .clamped(),
       color_parameter("albedo", 0.3,
-                      "What the ground around reflects; part of it comes back from the sky."),
-      number_parameter("latitude", 35.6894, "Of the place, north positive.")
+                      "Reflectance of the ground around. The sky scatters part of it back."),
+      number_parameter("latitude", 35.6894, "Latitude, north positive.")
           .range(-90, 90)
           .in("degrees"),
-      number_parameter("longitude", 139.6917, "Of the place, east positive.")
+      number_parameter("longitude", 139.6917, "Longitude, east positive.")
           .range(-180, 180)
           .in("degrees"),
-      number_parameter("timezone", 9, "Of the clock, ahead of universal time.")
+      number_parameter("timezone", 9, "Hours by which local time is ahead of universal time.")
           .range(-14, 14)
           .in("hours"),
-      integer_parameter("year", 2010, "Of the date.").range(1600, 2400),
-      integer_parameter("month", 7, "Of the date.").range(1, 12),
-      integer_parameter("day", 10, "Of the date.").range(1, 31),
-      number_parameter("hour", 15, "By the clock of the place.").range(0, 24),
-      number_parameter("minute", 0, "By the clock of the place.").range(0, 60),
-      number_parameter("second", 0, "By the clock of the place.").range(0, 60),
+      integer_parameter("year", 2010, "Part of the date.").range(1600, 2400),
+      integer_parameter("month", 7, "Part of the date.").range(1, 12),
+      integer_parameter("day", 10, "Part of the date.").range(1, 31),
+      number_parameter("hour", 15, "Part of the local time.").range(0, 24),
+      number_parameter("minute", 0, "Part of the local time.").range(0, 60),
+      number_parameter("second", 0, "Part of the local time.").range(0, 60),
       optional(point_parameter("sun_direction", {0, 0, 1},
-                               "Toward the sun, in the world; instead of place and time."))
+                               "Direction to the sun in the world, instead of place and time."))
           .moved(WhenMoved::turned)};
   if (parts != Parts::sky) {
     table.push_back(
         number_parameter("sun_scale", 1, "Factor on the sun's radiance.").range(0, 1e30));
     table.push_back(number_parameter("sun_aperture", 0.5358,
-                                     "Angle across the sun's disk; its light stays the same.")
+                                     "Angular diameter of the sun. Its irradiance stays the same.")
                         .range(1e-3, 90)
                         .in("degrees"));
   }
   if (parts != Parts::sun)
     table.push_back(
         number_parameter("sky_scale", 1, "Factor on the sky's radiance.").range(0, 1e30));
-  table.push_back(choice_parameter(
-      "units", "physical", {"physical", "mitsuba"},
-      "Of radiance: W/(sr·m²), or as in Mitsuba, per nanometre, which is 1/408 of that. Scenes of "
-      "Mitsuba before 2.0 and since 3.7 mean the latter."));
   table.push_back(
-      to_world_parameter("World from the sky, whose +z is the zenith, +x south and +y west."));
+      choice_parameter("units", "physical", {"physical", "mitsuba"},
+                       "Unit of radiance: W/(sr·m²), or per nanometre as in Mitsuba, which is "
+                       "1/408 of it. Scenes of Mitsuba before 2.0 and since 3.7 mean the latter."));
+  table.push_back(to_world_parameter(
+      "Transform from the sky's space to the world: +z is the zenith, +x south and +y west."));
   table.push_back(visible_parameter());
   table.push_back(ignored_parameter("complex_sun", ParameterKind::boolean));
   table.push_back(ignored_parameter("stretch", ParameterKind::number));

@@ -77,22 +77,23 @@ const TypeInfo& bitmap_info() {
       picture_parameters(
           ".",
           {choice_parameter("filter_type", "bilinear", {"bilinear", "nearest"},
-                            "How values between pixels come about."),
+                            "Interpolation between pixels."),
            choice_parameter("wrap_mode", "repeat", wrap_names(),
-                            "What is outside of the picture: itself again, its mirror image, its "
-                            "edge, black (zero) or white (one)."),
+                            "Values outside the picture: repeated, mirrored, those of its edge, "
+                            "black (zero) or white (one)."),
            optional(choice_parameter("wrap_mode_u", "repeat", wrap_names(),
-                                     "The same along u alone, beside the picture.")),
+                                     "Values left and right of the picture (u), as wrap_mode.")),
            optional(choice_parameter("wrap_mode_v", "repeat", wrap_names(),
-                                     "The same along v alone, above and below the picture.")),
+                                     "Values above and below the picture (v), as wrap_mode.")),
            text_parameter("channel", "",
-                          "What of the picture: r, g, b or a (its opacity) alone; or a layer or a "
-                          "channel of an EXR by its name. All its colours where nothing is said."),
-           boolean_parameter("raw", false,
-                             "Take values as they are stored, as linear ones: for normals, "
-                             "roughness and the like."),
+                          "Part of the picture: one channel (r, g, b, or a for opacity), or a "
+                          "layer or channel of an EXR by its name. All colours if absent."),
+           boolean_parameter(
+               "raw", false,
+               "Take stored values as linear numbers, for normals, roughness and the like."),
            gamma_parameter(),
-           transform_parameter("to_uv", "Applied to the coordinates before the lookup.").leaving(0),
+           transform_parameter("to_uv", "Transform of the coordinates before the lookup.")
+               .leaving(0),
            ignored_parameter("format", ParameterKind::text),
            ignored_parameter("accel", ParameterKind::boolean),
            ignored_parameter("cache", ParameterKind::boolean),

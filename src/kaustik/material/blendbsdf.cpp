@@ -128,7 +128,8 @@ const TypeInfo& blend_info() {
       "bsdf",
       "blendbsdf",
       "Mixes two nested bsdfs, by a texture for example.",
-      {number_parameter("weight", 0.5, "0: the first one alone, 1: the second one.")
+      {number_parameter("weight", 0.5,
+                        "Weight of the second bsdf: 0 is the first alone, 1 the second alone.")
            .range(0, 1)
            .clamped()
            .textured()}};

@@ -39,9 +39,8 @@ const TypeInfo& bumpmap_info() {
   static const TypeInfo info{
       "bsdf",
       "bumpmap",
-      "Bends the normals of the nested bsdf as if the surface were raised by a texture's height; "
-      "silhouettes stay.",
-      {optional(number_parameter("texture", 0, "Heights, m; a colour counts by its luminance."))
+      "Bends the normals of the nested bsdf by the heights of a texture. Silhouettes stay.",
+      {optional(number_parameter("texture", 0, "Heights in m. A colour counts by its luminance."))
            .textured(),
        number_parameter("scale", 1, "Factor on the heights.").range(-1e6, 1e6),
        ignored_parameter("flip_invalid_normals", ParameterKind::boolean),

@@ -41,7 +41,7 @@ const TypeInfo& checkerboard_info() {
            .range(0, 1e6)
            .textured(),
        color_parameter("color1", 0.2, "Colour of its neighbours.").range(0, 1e6).textured(),
-       transform_parameter("to_uv", "Applied to the coordinates before the lookup.").leaving(0)}};
+       transform_parameter("to_uv", "Transform of the coordinates before the lookup.").leaving(0)}};
   return info;
 }
 

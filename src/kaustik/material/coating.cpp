@@ -235,7 +235,7 @@ class Coating final : public Bsdf {
 TypeInfo make_coating_info(const std::string& name, const std::string& sentence) {
   TypeInfo info{"bsdf", name, sentence, dielectric_ior_parameters()};
   info.parameters.push_back(
-      number_parameter("thickness", 1, "Of the coat, in the unit that sigma_a is given by.")
+      number_parameter("thickness", 1, "Thickness of the coat, in the length unit of sigma_a.")
           .range(0, 1e9));
   info.parameters.push_back(
       color_parameter("sigma_a", 0, "Absorption of the coat.").in("1/m").range(0, 1e9));

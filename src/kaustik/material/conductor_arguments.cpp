@@ -22,28 +22,29 @@ bool is_curve(const Color& color) { return std::holds_alternative<SpectralCurve>
 }  // namespace
 
 std::vector<Parameter> conductor_parameters() {
-  return {choice_parameter("material", "none", conductor_names(),
-                           "Measured metal; 'none' is a perfect mirror."),
-          optional(color_parameter("eta", 0,
-                                   "Real part of the index of refraction over the surroundings'."))
-              .range(0, 1000),
-          optional(color_parameter("k", 1, "Imaginary part of the index of refraction."))
-              .range(0, 1000),
-          optional(number_or_name_parameter(
-                       "ext_eta", Value(std::string("air")), dielectric_names(),
-                       "Mitsuba 0.6: index of the surroundings, which eta and k are divided by."))
-              .range(0.01, 100),
-          optional(color_parameter("reflectance", 0.9,
-                                   "Share that is reflected at normal incidence, instead of a "
-                                   "material or of eta and k."))
-              .range(0, 1)
-              .textured(),
-          optional(color_parameter("edge_tint", 1,
-                                   "With reflectance: how much is reflected toward the edge; 1, "
-                                   "which is usual: as much as a metal can."))
-              .range(0, 1)
-              .textured(),
-          specular_reflectance_parameter()};
+  return {
+      choice_parameter("material", "none", conductor_names(),
+                       "Measured metal; 'none' is a perfect mirror."),
+      optional(color_parameter(
+                   "eta", 0, "Real part of the index of refraction, relative to the surroundings."))
+          .range(0, 1000),
+      optional(color_parameter("k", 1, "Imaginary part of the index of refraction."))
+          .range(0, 1000),
+      optional(number_or_name_parameter(
+                   "ext_eta", Value(std::string("air")), dielectric_names(),
+                   "Mitsuba 0.6: index of the surroundings. eta and k are divided by it."))
+          .range(0.01, 100),
+      optional(color_parameter(
+                   "reflectance", 0.9,
+                   "Reflectance at normal incidence, instead of a material or of eta and k."))
+          .range(0, 1)
+          .textured(),
+      optional(color_parameter("edge_tint", 1,
+                               "With reflectance: colour of the reflection toward the edge. The "
+                               "usual 1 is as much as a metal can reflect."))
+          .range(0, 1)
+          .textured(),
+      specular_reflectance_parameter()};
 }
 
 namespace {

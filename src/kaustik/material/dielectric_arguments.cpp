@@ -20,10 +20,9 @@ std::vector<Parameter> dielectric_ior_parameters(std::string_view usual_interior
 
 Parameter priority_parameter() {
   return optional(integer_parameter(priority_name, 0,
-                                    "Makes closed shapes of it solid bodies: where two overlap "
-                                    "only the one of higher priority is "
-                                    "there (of equal ones the first in the file), and its surface "
-                                    "knows the index of the other."))
+                                    "Makes closed shapes solid bodies. Where two overlap, only the "
+                                    "one with the higher priority is there (if equal, the first in "
+                                    "the file), and its surface uses the other's index."))
       .range(-1000000, 1000000);
 }
 
@@ -42,14 +41,14 @@ std::vector<Parameter> dielectric_parameters() {
 }
 
 Parameter specular_reflectance_parameter() {
-  return color_parameter("specular_reflectance", 1, "Factor on what is reflected; 1 is physical.")
+  return color_parameter("specular_reflectance", 1, "Factor on reflected radiance; 1 is physical.")
       .range(0, 1)
       .textured();
 }
 
 Parameter specular_transmittance_parameter() {
   return color_parameter("specular_transmittance", 1,
-                         "Factor on what is transmitted; 1 is physical.")
+                         "Factor on transmitted radiance; 1 is physical.")
       .range(0, 1)
       .textured();
 }

@@ -56,7 +56,7 @@ const TypeInfo& diffuse_info() {
       "bsdf",
       "diffuse",
       "Ideally matt surface (Lambert); black seen from behind, see 'twosided'.",
-      {color_parameter("reflectance", 0.5, "Share of the light that is reflected.")
+      {color_parameter("reflectance", 0.5, "Fraction of light that is reflected.")
            .range(0, 1)
            .textured()}};
   return info;

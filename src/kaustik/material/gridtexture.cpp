@@ -38,12 +38,11 @@ const TypeInfo& gridtexture_info() {
   static const TypeInfo info{
       "texture",
       "gridtexture",
-      "Lines about the borders of each unit of uv.",
+      "Lines along the borders of each unit of uv.",
       {color_parameter("color0", 0.2, "Colour between the lines.").range(0, 1e6).textured(),
        color_parameter("color1", 0.4, "Colour of the lines.").range(0, 1e6).textured(),
-       number_parameter("line_width", 0.01, "How far a line reaches to either side, in uv.")
-           .range(0, 0.5),
-       transform_parameter("to_uv", "Applied to the coordinates before the lookup.").leaving(0)}};
+       number_parameter("line_width", 0.01, "Half the width of a line, in uv.").range(0, 0.5),
+       transform_parameter("to_uv", "Transform of the coordinates before the lookup.").leaving(0)}};
   return info;
 }
 

@@ -116,7 +116,7 @@ const TypeInfo& marble_info() {
   static const TypeInfo info{
       "texture",
       "marble",
-      "Polished marble with veins, in space: it goes through solids.",
+      "Polished marble with veins. It is a pattern in space that goes through solids.",
       {texture_color("color0", {0.80, 0.78, 0.74}, "Colour of the stone."),
        texture_color("color1", {0.16, 0.17, 0.18}, "Colour of the veins."),
        number_parameter("scale", 0.4, "Distance between large veins.").range(1e-6, 1e6).in("m"),

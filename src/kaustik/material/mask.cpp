@@ -78,8 +78,8 @@ const TypeInfo& mask_info() {
   static const TypeInfo info{
       "bsdf",
       "mask",
-      "Puts holes into the nested bsdf; light that passes them counts as through clear glass.",
-      {number_parameter("opacity", 0.5, "Share of the surface that is there.")
+      "Cuts holes into the nested bsdf. Light through a hole counts as passing clear glass.",
+      {number_parameter("opacity", 0.5, "Fraction of the surface that exists.")
            .range(0, 1)
            .clamped()
            .textured()}};

@@ -51,8 +51,8 @@ const TypeInfo& mesh_attribute_info() {
       "Colours or numbers of a mesh's vertices, linear between them, or of its faces.",
       {required(text_parameter(
            "name", "",
-           "Which: vertex_color for the colours of an OBJ, PLY or serialized mesh; vertex_… or "
-           "face_… and the name of a PLY's properties without _x, _y, _z (or 0, 1, 2).")),
+           "Values to show. vertex_color: the colours of an OBJ, PLY or serialized mesh. vertex_… "
+           "or face_…: properties of a PLY, named without _x, _y, _z (or 0, 1, 2).")),
        number_parameter("scale", 1, "Factor on the values.").range(0, 1e6)}};
   return info;
 }

@@ -40,8 +40,8 @@ const TypeInfo& mixturebsdf_info() {
   static const TypeInfo info{
       "bsdf",
       "mixturebsdf",
-      "Mixes any number of nested bsdfs; what their weights lack of 1 is absorbed.",
-      {text_parameter("weights", "1", "One for each nested bsdf, with commas between."),
+      "Mixes any number of nested bsdfs. If the weights sum to less than 1, the rest is absorbed.",
+      {text_parameter("weights", "1", "One weight for each nested bsdf, separated by commas."),
        ignored_parameter("ensure_energy_conservation", ParameterKind::boolean)}};
   return info;
 }

@@ -45,12 +45,12 @@ const TypeInfo& noise_info() {
   static const TypeInfo info{
       "texture",
       "noise",
-      "Clouds between two colours, in space; as a bump map rough ground.",
-      {color_parameter("color0", 0, "Where the noise is low.").range(0, 1),
-       color_parameter("color1", 1, "Where it is high.").range(0, 1),
+      "Clouds of two colours in space. As a bump map it is rough ground.",
+      {color_parameter("color0", 0, "Colour where the noise is low.").range(0, 1),
+       color_parameter("color1", 1, "Colour where the noise is high.").range(0, 1),
        number_parameter("scale", 0.1, "Size of the largest clouds.").range(1e-6, 1e6).in("m"),
        integer_parameter("octaves", 6, "Levels of detail, each twice as fine.").range(1, 16),
-       number_parameter("roughness", 0.5, "Strength of a level over that of the one before.")
+       number_parameter("roughness", 0.5, "Strength of a level relative to the previous one.")
            .range(0, 1),
        number_parameter("amplitude", 0.002, "Height of the relief, in bump maps.")
            .range(0, 1e6)

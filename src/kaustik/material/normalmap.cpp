@@ -31,9 +31,8 @@ const TypeInfo& normalmap_info() {
   static const TypeInfo info{
       "bsdf",
       "normalmap",
-      "Bends the normals of the nested bsdf to those of a picture.",
-      {optional(color_parameter("normalmap", 0.5,
-                                "Normals; a bitmap for this has to be read with raw = true."))
+      "Replaces the normals of the nested bsdf by those of a picture.",
+      {optional(color_parameter("normalmap", 0.5, "Normals. A bitmap needs raw = true."))
            .textured(),
        ignored_parameter("flip_invalid_normals", ParameterKind::boolean),
        ignored_parameter("use_shadowing_function", ParameterKind::boolean)}};

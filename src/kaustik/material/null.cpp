@@ -16,12 +16,11 @@ class Null final : public Bsdf {
 };
 
 const TypeInfo& null_info() {
-  static const TypeInfo info{
-      "bsdf",
-      "null",
-      "Lets light pass as if the surface were not there: the boundary of a medium without "
-      "refraction.",
-      {}};
+  static const TypeInfo info{"bsdf",
+                             "null",
+                             "Lets light pass as if there were no surface. It is for the boundary "
+                             "of a medium without refraction.",
+                             {}};
   return info;
 }
 

@@ -29,44 +29,48 @@ Parameter pbr_color(const std::string& name, double usual, const std::string& se
 
 std::vector<Parameter> OpenPbrParameters::rows() {
   std::vector<Parameter> rows = {
-      share_parameter("base_weight", 1, "Factor on the base's colour."),
-      pbr_color("base_color", 0.8, "Of what is matt, and of metal at normal incidence."),
+      share_parameter("base_weight", 1, "Factor on base_color."),
+      pbr_color("base_color", 0.8, "Colour of the matt part, and of metal at normal incidence."),
       share_parameter("base_diffuse_roughness", 0,
-                      "Of what is matt: 0 as 'diffuse', 1 like plaster."),
-      share_parameter("base_metalness", 0, "Share of metal."),
+                      "Roughness of the matt part: 0 is 'diffuse', 1 is like plaster."),
+      share_parameter("base_metalness", 0, "Fraction of metal."),
       share_parameter("specular_weight", 1,
-                      "Factor on what the base's surface reflects straight on."),
+                      "Factor on the base's reflectance at normal incidence."),
       pbr_color("specular_color", 1,
-                "Factor on what the base's surface reflects; of metal only toward its edge."),
+                "Factor on the base's specular reflectance. On metal it acts only toward grazing "
+                "angles."),
       share_parameter("specular_roughness", 0.3,
-                      "Of the base's surface; its slope is about the square."),
+                      "Roughness of the base. The slope of its facets is about the square."),
       share_parameter("specular_roughness_anisotropy", 0,
-                      "How much longer highlights of the base are along the tangent."),
-      number_parameter("specular_ior", 1.5, "Index of refraction of the base over that outside.")
+                      "Stretches highlights of the base along the tangent."),
+      number_parameter("specular_ior", 1.5, "Index of refraction of the base, relative to outside.")
           .range(0.01, 100),
-      share_parameter("transmission_weight", 0, "Share of glass in what is no metal."),
-      pbr_color("transmission_color", 1, "Factor on what passes the surface of glass."),
-      share_parameter("subsurface_weight", 0, "Share of skin or wax in what is matt."),
+      share_parameter("transmission_weight", 0, "Fraction of glass in the non-metal part."),
+      pbr_color("transmission_color", 1, "Factor on light that passes the surface of the glass."),
+      share_parameter("subsurface_weight", 0, "Fraction of skin or wax in the matt part."),
       pbr_color("subsurface_color", 0.8,
-                "Colour of that share, which scatters light where it arrives."),
+                "Colour of skin or wax. Scattered light leaves where it arrives."),
       number_parameter("subsurface_scatter_anisotropy", 0,
-                       "Of sheets: 1 lets through what that share scatters, −1 throws it back.")
+                       "For thin-walled sheets: 1 transmits all light that skin or wax scatters, "
+                       "−1 reflects it.")
           .range(-1, 1),
-      share_parameter("coat_weight", 0, "Share of the surface that has a coat."),
-      pbr_color("coat_color", 1, "Factor on what has passed the coat twice."),
-      share_parameter("coat_roughness", 0, "Of the coat; what is beneath it gets rougher, too."),
+      share_parameter("coat_weight", 0, "Fraction of the surface with a coat."),
+      pbr_color("coat_color", 1, "Factor on light that passes the coat twice."),
+      share_parameter("coat_roughness", 0,
+                      "Roughness of the coat. It also makes the base rougher."),
       share_parameter("coat_roughness_anisotropy", 0,
-                      "How much longer highlights of the coat are along the tangent."),
-      number_parameter("coat_ior", 1.6, "Index of refraction of the coat over that outside.")
+                      "Stretches highlights of the coat along the tangent."),
+      number_parameter("coat_ior", 1.6, "Index of refraction of the coat, relative to outside.")
           .range(0.01, 100),
       share_parameter("coat_darkening", 1,
-                      "How much light that the coat throws back again darkens the base."),
-      share_parameter("fuzz_weight", 0, "Share of the surface that has fibres on it."),
-      pbr_color("fuzz_color", 1, "Factor on what the fibres reflect."),
-      share_parameter("fuzz_roughness", 0.5, "0: upright fibres; 1: dust."),
-      boolean_parameter("geometry_thin_walled", false,
-                        "A sheet, alike on both sides; light leaves it where it enters."),
-      share_parameter("geometry_opacity", 1, "Share of the surface that is there at all.")};
+                      "Strength of the darkening of the base by reflection inside the coat."),
+      share_parameter("fuzz_weight", 0, "Fraction of the surface with fibres."),
+      pbr_color("fuzz_color", 1, "Colour of the fibres."),
+      share_parameter("fuzz_roughness", 0.5, "Roughness of the fibres: 0 upright fibres, 1 dust."),
+      boolean_parameter(
+          "geometry_thin_walled", false,
+          "Makes it a thin sheet with two equal sides. Light leaves it where it enters."),
+      share_parameter("geometry_opacity", 1, "Fraction of the surface that exists.")};
   for (const char* name :
        {"transmission_depth", "transmission_scatter_anisotropy", "transmission_dispersion_scale",
         "transmission_dispersion_abbe_number", "subsurface_radius", "thin_film_weight",

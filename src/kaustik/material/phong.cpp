@@ -224,10 +224,10 @@ const TypeInfo& phong_info() {
       "bsdf",
       "phong",
       "Matt surface with a glossy highlight (modified Phong); black seen from behind.",
-      {color_parameter("diffuse_reflectance", 0.5, "Share of the light that is scattered evenly.")
+      {color_parameter("diffuse_reflectance", 0.5, "Fraction of light that is reflected diffusely.")
            .range(0, 1)
            .textured(),
-       color_parameter("specular_reflectance", 0.2, "Share of the light in the highlight.")
+       color_parameter("specular_reflectance", 0.2, "Fraction of light in the highlight.")
            .range(0, 1)
            .textured(),
        exponent_parameter()}};
@@ -238,19 +238,21 @@ const TypeInfo& thinphong_info() {
   static const TypeInfo info{
       "bsdf",
       "thinphong",
-      "Thin sheet such as paper, cloth or frosted glass, alike on both sides: reflects and "
+      "Thin sheet with two equal sides, such as paper, cloth or frosted glass. It reflects and "
       "transmits by the modified Phong model.",
-      {color_parameter("diffuse_reflectance", 0.4, "Share that is thrown back evenly.")
+      {color_parameter("diffuse_reflectance", 0.4, "Fraction of light that is reflected diffusely.")
            .range(0, 1)
            .textured(),
-       color_parameter("specular_reflectance", 0, "Share thrown back about the mirror direction.")
+       color_parameter("specular_reflectance", 0,
+                       "Fraction of light that is reflected around the mirror direction.")
            .range(0, 1)
            .textured(),
-       color_parameter("diffuse_transmittance", 0.4, "Share that goes through and spreads evenly.")
+       color_parameter("diffuse_transmittance", 0.4,
+                       "Fraction of light that is transmitted diffusely.")
            .range(0, 1)
            .textured(),
        color_parameter("specular_transmittance", 0,
-                       "Share that goes through about the direction straight on.")
+                       "Fraction of light that is transmitted around the straight direction.")
            .range(0, 1)
            .textured(),
        exponent_parameter()}};
@@ -261,8 +263,10 @@ const TypeInfo& difftrans_info() {
   static const TypeInfo info{
       "bsdf",
       "difftrans",
-      "Thin sheet that spreads evenly behind it what comes from before it, and reflects nothing.",
-      {color_parameter("transmittance", 0.5, "Share that goes through.").range(0, 1).textured()}};
+      "Thin sheet that transmits light diffusely and reflects nothing.",
+      {color_parameter("transmittance", 0.5, "Fraction of light that is transmitted.")
+           .range(0, 1)
+           .textured()}};
   return info;
 }
 

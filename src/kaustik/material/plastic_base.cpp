@@ -6,11 +6,11 @@ namespace kaustik {
 
 std::vector<Parameter> plastic_parameters() {
   std::vector<Parameter> parameters = {
-      color_parameter("diffuse_reflectance", 0.5, "Share of the light that the base scatters.")
+      color_parameter("diffuse_reflectance", 0.5, "Fraction of light that the base reflects.")
           .range(0, 1)
           .textured(),
       boolean_parameter("nonlinear", false,
-                        "Let light that is scattered several times take on more colour.")};
+                        "Lets multiple reflections inside the coat deepen the colour.")};
   for (Parameter& parameter : dielectric_ior_parameters("polypropylene"))
     parameters.push_back(std::move(parameter));
   parameters.push_back(specular_reflectance_parameter());

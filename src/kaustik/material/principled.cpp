@@ -376,26 +376,26 @@ const TypeInfo& principled_info() {
   static const TypeInfo info{
       "bsdf",
       "principled",
-      "Burley's (Disney's) model of most surfaces: matt, cloth, plastic, metal, glass, varnish.",
+      "Burley's (Disney's) model for most surfaces: matt, cloth, plastic, metal, glass, varnish.",
       {color_parameter("base_color", 0.5, "Colour of the base, of metal and of clear glass.")
            .range(0, 1)
            .textured(),
-       share_parameter("roughness", 0.5, "Of the facets; their slope is about its square."),
-       share_parameter("anisotropic", 0, "How much longer highlights are along the tangent."),
-       share_parameter("metallic", 0, "Share of metal; the rest is matt or glass."),
-       share_parameter("spec_trans", 0, "Share of glass in what is no metal."),
-       optional(number_parameter("eta", 1.5, "Index of refraction inside over that outside."))
+       share_parameter("roughness", 0.5, "Roughness. The slope of the facets is about its square."),
+       share_parameter("anisotropic", 0, "Stretches highlights along the tangent."),
+       share_parameter("metallic", 0, "Fraction of metal. The rest is matt or glass."),
+       share_parameter("spec_trans", 0, "Fraction of glass in the non-metal part."),
+       optional(number_parameter("eta", 1.5, "Index of refraction inside, relative to outside."))
            .range(0.01, 100),
-       optional(number_parameter("specular", 0.5,
-                                 "Reflection of glass at normal incidence, 0.08 times this, "
-                                 "instead of eta."))
+       optional(number_parameter(
+                    "specular", 0.5,
+                    "Reflectance of glass at normal incidence divided by 0.08, instead of eta."))
            .range(0, largest_specular)
            .clamped()
            .instead_of("eta"),
-       share_parameter("spec_tint", 0, "How much the reflection of glass has the base's colour."),
-       share_parameter("sheen", 0, "Shine of cloth at grazing angles."),
-       share_parameter("sheen_tint", 0, "How much the sheen has the base's colour."),
-       share_parameter("flatness", 0, "How much the base looks like skin or wax."),
+       share_parameter("spec_tint", 0, "Tint of the reflection of glass by the base colour."),
+       share_parameter("sheen", 0, "Sheen of cloth at grazing angles."),
+       share_parameter("sheen_tint", 0, "Tint of the sheen by the base colour."),
+       share_parameter("flatness", 0, "Blends the base towards skin or wax."),
        share_parameter("clearcoat", 0, "Weight of the coat of varnish."),
        share_parameter("clearcoat_gloss", 0, "Gloss of the coat."),
        ignored_parameter("main_specular_sampling_rate", ParameterKind::number),

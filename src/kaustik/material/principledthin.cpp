@@ -282,21 +282,23 @@ const TypeInfo& principledthin_info() {
   static const TypeInfo info{
       "bsdf",
       "principledthin",
-      "Burley's (Disney's) thin sheet, alike on both sides: leaves, paper, cloth, panes.",
-      {color_parameter("base_color", 0.5, "Colour of what is matt and of what goes through.")
+      "Burley's (Disney's) thin sheet with two equal sides: leaves, paper, cloth, panes.",
+      {color_parameter("base_color", 0.5, "Colour of the matt part and of transmitted light.")
            .range(0, 1)
            .textured(),
-       share_parameter("roughness", 0.5, "Of the facets; their slope is about its square."),
-       share_parameter("anisotropic", 0, "How much longer highlights are along the tangent."),
-       share_parameter("spec_trans", 0, "Share of what is glassy; the rest is matt."),
-       number_parameter("eta", 1.5, "Index of refraction of the sheet over that beside it.")
+       share_parameter("roughness", 0.5, "Roughness. The slope of the facets is about its square."),
+       share_parameter("anisotropic", 0, "Stretches highlights along the tangent."),
+       share_parameter("spec_trans", 0, "Fraction of glass. The rest is matt."),
+       number_parameter("eta", 1.5,
+                        "Index of refraction of the sheet, relative to its surroundings.")
            .range(0.01, 100),
-       share_parameter("spec_tint", 0, "How much the reflection of glass has the base's colour."),
-       share_parameter("sheen", 0, "Shine of cloth at grazing angles."),
-       share_parameter("sheen_tint", 0, "How much the sheen has the base's colour."),
-       share_parameter("flatness", 0, "How much the base looks like skin or wax."),
-       number_parameter("diff_trans", 0,
-                        "How much of what is matt goes through: 0 nothing, 2 all of it.")
+       share_parameter("spec_tint", 0, "Tint of the reflection of glass by the base colour."),
+       share_parameter("sheen", 0, "Sheen of cloth at grazing angles."),
+       share_parameter("sheen_tint", 0, "Tint of the sheen by the base colour."),
+       share_parameter("flatness", 0, "Blends the base towards skin or wax."),
+       number_parameter(
+           "diff_trans", 0,
+           "Twice the fraction of the matt part that is transmitted: 0 nothing, 2 all.")
            .range(0, 2)
            .clamped()
            .textured(),

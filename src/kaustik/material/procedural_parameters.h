@@ -12,7 +12,7 @@ inline Parameter texture_color(std::string name, const Rgb& value, std::string s
   return parameter;
 }
 inline Parameter seed_parameter() {
-  return integer_parameter("seed", 0, "Another number, another pattern.").range(0, 1e9);
+  return integer_parameter("seed", 0, "Seed: each number gives another pattern.").range(0, 1e9);
 }
 inline SpectralValue color_argument(const Arguments& arguments, std::string_view name) {
   return SpectralValue::reflectance(arguments.color(name));

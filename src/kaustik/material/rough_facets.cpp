@@ -18,7 +18,7 @@ Parameter distribution_parameter() {
 
 Parameter sample_visible_parameter() {
   return boolean_parameter("sample_visible", true,
-                           "No effect: facets that can be seen are always the ones sampled.");
+                           "No effect: only visible facets are sampled, always.");
 }
 
 RoughFacets::Kind facet_kind_of(const BsdfInputs& inputs) {
@@ -32,7 +32,7 @@ RoughFacets::Kind facet_kind_of(const BsdfInputs& inputs) {
 
 std::vector<Parameter> rough_facets_parameters() {
   return {distribution_parameter(),
-          alpha_parameter("alpha", "Roughness; about the root mean square slope of the facets."),
+          alpha_parameter("alpha", "Roughness: about the root mean square slope of the facets."),
           optional(alpha_parameter("alpha_u", "Roughness along the tangent, instead of alpha.")),
           optional(alpha_parameter("alpha_v", "Roughness across the tangent, instead of alpha.")),
           sample_visible_parameter()};

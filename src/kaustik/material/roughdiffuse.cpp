@@ -56,10 +56,10 @@ const TypeInfo& roughdiffuse_info() {
       "bsdf",
       "roughdiffuse",
       "Matt surface with rough facets, such as plaster or the moon; black seen from behind.",
-      {color_parameter("reflectance", 0.5, "Share of the light that a facet reflects.")
+      {color_parameter("reflectance", 0.5, "Fraction of light that a facet reflects.")
            .range(0, 1)
            .textured(),
-       number_parameter("roughness", 0.5, "0: as 'diffuse'; 1: as rough as can be.")
+       number_parameter("roughness", 0.5, "Roughness: 0 is 'diffuse', 1 is the maximum.")
            .range(0, 1)
            .clamped()
            .textured(),

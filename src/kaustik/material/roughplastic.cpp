@@ -123,7 +123,7 @@ TypeInfo make_roughplastic_info() {
       "roughplastic",
       "Matt base under a rough transparent coat; black seen from behind.",
       {distribution_parameter(),
-       number_parameter("alpha", 0.1, "Roughness of the coat; about the root mean square slope.")
+       number_parameter("alpha", 0.1, "Roughness of the coat: about the root mean square slope.")
            .range(0, RoughFacets::largest_alpha)
            .clamped(),
        sample_visible_parameter()}};
@@ -159,9 +159,9 @@ TypeInfo make_pplastic_info() {
   info.sentence = "Mitsuba's plastic for polarised light: 'roughplastic' here.";
   for (const char* name : {"alpha_u", "alpha_v"})
     info.parameters.push_back(
-        optional(number_parameter(name, 0.1,
-                                  "Roughness in one direction; that of both, their geometric "
-                                  "mean, is used."))
+        optional(number_parameter(
+                     name, 0.1,
+                     "Roughness in one direction. The geometric mean of both directions is used."))
             .range(0, RoughFacets::largest_alpha)
             .clamped());
   return info;

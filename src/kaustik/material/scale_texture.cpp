@@ -36,10 +36,12 @@ const TypeInfo& scale_info() {
       "texture",
       "scale",
       "A texture, or a colour, times a factor.",
-      {optional(color_parameter("value", 1, "What is multiplied; a texture may have any name."))
+      {optional(color_parameter("value", 1,
+                                "Texture or colour to multiply. A texture may have any name."))
            .range(0, 1e6)
            .textured(),
-       color_parameter("scale", 1, "The factor; on heights its luminance.").range(0, 1e6)}};
+       color_parameter("scale", 1, "Factor. Heights are multiplied by its luminance.")
+           .range(0, 1e6)}};
   return info;
 }
 

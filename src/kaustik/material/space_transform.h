@@ -33,10 +33,9 @@ class SpaceTransform {
 
 /// The row of that parameter.
 inline Parameter texture_to_world_parameter() {
-  return transform_parameter(
-      "to_world",
-      "Places the texture in the world (in the group's space for shapes of a "
-      "shape group); its own unit is the metre.");
+  return transform_parameter("to_world",
+                             "Places the texture in the world, or in the group's space within a "
+                             "shape group. Its unit is the metre.");
 }
 
 }  // namespace kaustik

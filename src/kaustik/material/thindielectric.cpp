@@ -73,7 +73,7 @@ class ThinDielectric final : public Bsdf {
 
 const TypeInfo& thindielectric_info() {
   static const TypeInfo info{"bsdf", "thindielectric",
-                             "Thin pane of glass; light goes straight through.",
+                             "Thin pane of glass. Light goes straight through.",
                              dielectric_parameters()};
   return info;
 }

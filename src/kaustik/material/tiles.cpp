@@ -133,29 +133,31 @@ const TypeInfo& tiles_info() {
   static const TypeInfo info{
       "texture",
       "tiles",
-      "Tiles with joints of their own colour, each tile a little different; as a bump map rounded "
-      "edges and tiles that lie a little askew.",
+      "Tiles and joints, each tile a little different. As a bump map it has rounded edges and "
+      "slightly tilted tiles.",
       {texture_color("color", {0.70, 0.72, 0.72}, "Colour of the brightest tiles."),
        texture_color("joint_color", {0.40, 0.39, 0.37}, "Colour of the joints."),
-       number_parameter("tile_width", 0.2, "Along x (u).").range(1e-6, 1e6).in("m"),
-       number_parameter("tile_height", 0.2, "Along y (v); along z on walls.")
+       number_parameter("tile_width", 0.2, "Width of a tile, along x (u).")
+           .range(1e-6, 1e6)
+           .in("m"),
+       number_parameter("tile_height", 0.2, "Height of a tile, along y (v), or along z on walls.")
            .range(1e-6, 1e6)
            .in("m"),
        number_parameter("joint", 0.004, "Width of the joints.").range(0, 1e6).in("m"),
        number_parameter("offset", 0,
-                        "By how much of a tile each row is shifted against the one below; 0.5: "
-                        "bricks.")
+                        "Shift of each row against the one below, in tiles; 0.5: bricks.")
            .range(0, 1),
-       number_parameter("variation", 0.12, "Tiles are darker by up to this share.").range(0, 1),
+       number_parameter("variation", 0.12, "Largest fraction by which a tile is darker.")
+           .range(0, 1),
        number_parameter("bevel", 0.002, "Width of the rounded edge, in bump maps.")
            .range(0, 1e6)
            .in("m"),
        number_parameter("depth", 0.001, "Height of the edge, in bump maps.").range(0, 1e6).in("m"),
-       number_parameter("tilt", 0.002, "Slope of the tiles at most, in bump maps.").range(0, 10),
-       choice_parameter("projection", "box", {"box", "uv"},
-                        "On the planes of the texture's space, or by texture coordinates, which "
-                        "then count as metres."),
-       transform_parameter("to_uv", "Applied to texture coordinates before the lookup."),
+       number_parameter("tilt", 0.002, "Largest slope of the tiles, in bump maps.").range(0, 10),
+       choice_parameter(
+           "projection", "box", {"box", "uv"},
+           "Projection on the planes of the texture's space, or by texture coordinates in metres."),
+       transform_parameter("to_uv", "Transform of texture coordinates before the lookup."),
        seed_parameter(), texture_to_world_parameter()}};
   return info;
 }

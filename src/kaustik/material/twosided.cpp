@@ -83,11 +83,10 @@ const TypeInfo& twosided_info() {
   static const TypeInfo info{
       "bsdf",
       "twosided",
-      "Makes a one-sided bsdf visible from behind; a second nested one is for the back.",
-      {boolean_parameter(
-          "allow_transmission", false,
-          "A nested bsdf that transmits light is used as it is: it has two sides. Of two the "
-          "first one is.")}};
+      "Makes a one-sided bsdf visible from behind. A second nested bsdf is for the back.",
+      {boolean_parameter("allow_transmission", false,
+                         "Allows a nested bsdf that transmits light. It has two sides already and "
+                         "is used as it is; of two, the first.")}};
   return info;
 }
 

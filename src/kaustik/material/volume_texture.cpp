@@ -55,10 +55,9 @@ const TypeInfo& volume_texture_info() {
   static const TypeInfo info{
       "texture",
       "volume",
-      "What a volume is at the points of the surface: for shapes without uv, and patterns that go "
-      "through solids.",
-      {color_parameter("volume", 0.75,
-                       "The volume, a grid of 1 or 3 channels; or one value for all points.")
+      "Value of a volume at the points of the surface, for shapes without uv and for patterns that "
+      "go through solids.",
+      {color_parameter("volume", 0.75, "Volume with 1 or 3 channels, or one value for all points.")
            .range(0, 1e6)
            .or_volume()}};
   return info;

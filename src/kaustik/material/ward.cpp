@@ -160,13 +160,13 @@ const TypeInfo& ward_info() {
   static const TypeInfo info{
       "bsdf",
       "ward",
-      "Matt surface with Ward's highlight, stretched at will; black seen from behind.",
+      "Matt surface with Ward's highlight, which may be stretched. Black seen from behind.",
       {choice_parameter("variant", "balanced", {"balanced", "ward", "ward-duer"},
-                        "Normalization; the older two are bounded by 'balanced'."),
-       color_parameter("diffuse_reflectance", 0.5, "Share of the light that is scattered evenly.")
+                        "Normalization. The two older variants are bounded by 'balanced'."),
+       color_parameter("diffuse_reflectance", 0.5, "Fraction of light that is reflected diffusely.")
            .range(0, 1)
            .textured(),
-       color_parameter("specular_reflectance", 0.2, "Share of the light in the highlight.")
+       color_parameter("specular_reflectance", 0.2, "Fraction of light in the highlight.")
            .range(0, 1)
            .textured(),
        alpha_parameter("alpha_u", "Width of the highlight along the tangent."),

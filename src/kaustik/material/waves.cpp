@@ -56,22 +56,23 @@ const TypeInfo& waves_info() {
   static const TypeInfo info{
       "texture",
       "waves",
-      "Water waves on the xy plane, for bump maps; as a colour, their height.",
+      "Water waves on the xy plane, for bump maps. As a colour it is their height.",
       {number_parameter("amplitude", 0.004, "Root mean square of the height.")
            .range(0, 1e6)
            .in("m"),
        number_parameter("wavelength", 0.5,
-                        "Of the longest waves; the shortest have a sixteenth of it.")
+                        "Length of the longest waves. The shortest have a sixteenth of it.")
            .range(1e-6, 1e6)
            .in("m"),
        integer_parameter("count", defaults.count, "Number of waves that are summed.").range(1, 512),
-       number_parameter("direction", 0, "Where they run to, from x toward y.")
+       number_parameter("direction", 0, "Direction of the waves, from x towards y.")
            .range(-360, 360)
            .in("degrees"),
-       number_parameter("spread", 180, "Their directions differ by up to this; 180: all ways.")
+       number_parameter("spread", 180,
+                        "Largest deviation from that direction; 180: all directions.")
            .range(0, 180)
            .in("degrees"),
-       number_parameter("time", 0, "When they are seen.").range(-1e6, 1e6).in("s"),
+       number_parameter("time", 0, "Time at which the waves are shown.").range(-1e6, 1e6).in("s"),
        color_parameter("color0", 0, "Colour of the lowest place.").range(0, 1),
        color_parameter("color1", 1, "Colour of the highest place.").range(0, 1), seed_parameter(),
        texture_to_world_parameter()}};

@@ -123,8 +123,8 @@ const TypeInfo& wood_info() {
   static const TypeInfo info{
       "texture",
       "wood",
-      "Wood with its grain along x, in space, in one piece or as planks in the xy plane; as a bump "
-      "map its fibres and the gaps.",
+      "Wood with its grain along x, in one piece or as planks in the xy plane. As a bump map it "
+      "has fibres and gaps.",
       {texture_color("color0", {0.48, 0.28, 0.14}, "Colour of early wood."),
        texture_color("color1", {0.20, 0.09, 0.035}, "Colour of late wood."),
        number_parameter("ring_width", 0.006, "Distance between year rings.")
@@ -134,9 +134,13 @@ const TypeInfo& wood_info() {
        number_parameter("depth", 0.00005, "Height of the fibres, in bump maps.")
            .range(0, 1e6)
            .in("m"),
-       number_parameter("plank_width", 0, "0: one piece.").range(0, 1e6).in("m"),
-       number_parameter("plank_length", 1.4, "Along x.").range(1e-6, 1e6).in("m"), seed_parameter(),
-       texture_to_world_parameter()}};
+       number_parameter("plank_width", 0, "Width of the planks; 0: one piece.")
+           .range(0, 1e6)
+           .in("m"),
+       number_parameter("plank_length", 1.4, "Length of the planks, along x.")
+           .range(1e-6, 1e6)
+           .in("m"),
+       seed_parameter(), texture_to_world_parameter()}};
   return info;
 }
 

@@ -33,8 +33,10 @@ const TypeInfo& blendphase_info() {
   static const TypeInfo info{
       "phase",
       "blendphase",
-      "A mixture of the two phase functions in it, in the order of their names.",
-      {number_parameter("weight", 0.5, "Share of the second one.").range(0, 1).clamped()}};
+      "Mixes two nested phase functions, in the order of their names.",
+      {number_parameter("weight", 0.5, "Weight of the second phase function.")
+           .range(0, 1)
+           .clamped()}};
   return info;
 }
 

@@ -58,17 +58,15 @@ void check_extinction(const Spectrum& extinction, const Arguments& arguments) {
 }
 
 Parameter albedo_parameter() {
-  return color_parameter("albedo", 0.75, "Share of the light taken out that is scattered.")
+  return color_parameter("albedo", 0.75, "Fraction of the extinction that is scattered.")
       .range(0, 1)
       .or_volume();
 }
 Parameter sigma_t_parameter() {
-  return color_parameter("sigma_t", 1, "Extinction: what is taken out of a beam.")
-      .in("1/m")
-      .or_volume();
+  return color_parameter("sigma_t", 1, "Extinction coefficient.").in("1/m").or_volume();
 }
 Parameter medium_scale_parameter() {
-  return number_parameter("scale", 1, "Factor on all coefficients, for other units of length.")
+  return number_parameter("scale", 1, "Factor on all coefficients, for other length units.")
       .range(0, 1e30);
 }
 

@@ -47,8 +47,8 @@ const TypeInfo& henyey_greenstein_info() {
       "hg",
       "Henyey and Greenstein's phase function: forward or backward scattering.",
       {number_parameter("g", 0.8,
-                        "Mean cosine of the angle of scattering, between -1 and 1: above zero "
-                        "light goes on forward.")
+                        "Mean cosine of the scattering angle, between -1 and 1. Positive values "
+                        "scatter forward.")
            .range(-1, 1)}};
   return info;
 }

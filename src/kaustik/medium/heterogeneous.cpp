@@ -26,8 +26,8 @@ const TypeInfo& heterogeneous_info() {
   static const TypeInfo info{
       "medium",
       "heterogeneous",
-      "Smoke, clouds: absorbs and scatters light, more in some places than in others. Density ends "
-      "where the box of its grid does; a nested phase function says where light is scattered to.",
+      "Smoke, clouds: absorbs and scatters light by a density that varies in space and ends at the "
+      "box of its grid. A nested phase function gives the directions.",
       {albedo_parameter(), sigma_t_parameter(), medium_scale_parameter(),
        ignored_parameter("sample_emitters", ParameterKind::boolean),
        ignored_parameter("has_spectral_extinction", ParameterKind::boolean),

@@ -51,18 +51,17 @@ const TypeInfo& homogeneous_info() {
   static const TypeInfo info{
       "medium",
       "homogeneous",
-      "Haze, water, milk: absorbs and scatters light, the same everywhere. Give 'albedo' and "
-      "'sigma_t', 'sigma_a' and 'sigma_s', or a 'material'; a nested phase function says where it "
-      "scatters to.",
+      "Haze, water, milk: absorbs and scatters light evenly in space. Give 'albedo' and 'sigma_t', "
+      "or 'sigma_a' and 'sigma_s', or a 'material'. A nested phase function gives the directions.",
       {albedo_parameter(), sigma_t_parameter(),
        optional(
            color_parameter("sigma_a", 0, "Absorption, instead of albedo and sigma_t.").in("1/m")),
        optional(
            color_parameter("sigma_s", 0, "Scattering, instead of albedo and sigma_t.").in("1/m")),
-       choice_parameter("material", "none", material_choices(),
-                        "A substance that was measured, instead of coefficients: per millimetre, "
-                        "so that 'scale' is 1000 in a scene of metres. It scatters evenly, by its "
-                        "reduced coefficient."),
+       choice_parameter(
+           "material", "none", material_choices(),
+           "Measured substance, instead of coefficients. They are per millimetre, so 'scale' is "
+           "1000 in a scene in metres. It scatters evenly, by the reduced coefficient."),
        medium_scale_parameter(), ignored_parameter("sample_emitters", ParameterKind::boolean),
        ignored_parameter("has_spectral_extinction", ParameterKind::boolean),
        ignored_parameter("strategy", ParameterKind::text)}};

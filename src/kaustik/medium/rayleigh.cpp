@@ -27,7 +27,7 @@ const TypeInfo& rayleigh_info() {
   static const TypeInfo info{
       "phase",
       "rayleigh",
-      "Rayleigh's phase function, of clear air: forward and backward alike, less to the sides.",
+      "Rayleigh's phase function, for clear air: equal forward and backward, less to the sides.",
       {}};
   return info;
 }

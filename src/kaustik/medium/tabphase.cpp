@@ -67,10 +67,10 @@ const TypeInfo& tabphase_info() {
   static const TypeInfo info{
       "phase",
       "tabphase",
-      "A phase function by its values, which need not be normalised.",
+      "A phase function given by values. They need not be normalised.",
       {required(text_parameter("values", "",
-                               "Numbers with commas between them, at equally spaced cosines of the "
-                               "angle of scattering, from -1 (backward) to 1 (forward)."))}};
+                               "Values at equally spaced cosines of the scattering angle, from -1 "
+                               "(backward) to 1 (forward), separated by commas."))}};
   return info;
 }
 

@@ -66,9 +66,8 @@ const TypeInfo& PhotonMapSettings::info() {
   static const TypeInfo info{
       "integrator", "photonmap",
       "Two-pass photon mapping: caustics from photons, diffuse indirect light by gathering over a "
-      "global photon map with an irradiance cache, specular light by tracing. Names in [] are "
-      "those "
-      "of Schregle's thesis.",
+      "global photon map with an irradiance cache, specular light by tracing. Names in [] are from "
+      "Schregle's thesis.",
       parameters()};
   return info;
 }

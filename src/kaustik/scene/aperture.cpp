@@ -31,7 +31,7 @@ Vec2f Aperture::at(const Vec2f& u) const {
 
 std::vector<Parameter> lens_parameters(Parameter aperture_radius) {
   return {aperture_radius.range(0, 1e6).in("m"),
-          number_parameter("focus_distance", 1e4, "How far away the picture is sharp.")
+          number_parameter("focus_distance", 1e4, "Distance at which the picture is sharp.")
               .range(1e-6, 1e12)
               .in("m"),
           integer_parameter("blades", 0, "Sides of the aperture; 0: round.").range(0, 100),

@@ -53,17 +53,16 @@ ClipRange::ClipRange(const Arguments& arguments) {
 }
 
 std::vector<Parameter> clip_parameters() {
-  return {
-      optional(number_parameter("near_clip", 0,
-                                "What is nearer is cut off, see docs/reference/sensor/index.md; "
-                                "nothing if absent.")
-                   .range(0, 1e12)
-                   .in("m")),
-      optional(number_parameter("far_clip", 1e4,
-                                "What is farther is cut off, see docs/reference/sensor/index.md; "
-                                "nothing if absent.")
-                   .range(0, 1e12)
-                   .in("m"))};
+  return {optional(number_parameter("near_clip", 0,
+                                    "Surfaces nearer than this are cut off, see "
+                                    "docs/reference/sensor/index.md; none if absent.")
+                       .range(0, 1e12)
+                       .in("m")),
+          optional(number_parameter("far_clip", 1e4,
+                                    "Surfaces farther than this are cut off, see "
+                                    "docs/reference/sensor/index.md; none if absent.")
+                       .range(0, 1e12)
+                       .in("m"))};
 }
 
 StraightView::StraightView(const CameraInputs& inputs)
@@ -103,13 +102,14 @@ CameraConnection StraightView::connect(const Vec3f& point, const Vec3f& lens,
 std::vector<Parameter> straight_view_parameters() {
   std::vector<Parameter> rows = field_of_view_parameters();
   rows.push_back(number_parameter("principal_point_offset_x", 0,
-                                  "Where the picture's centre lies right of the optical axis, as "
-                                  "a share of its width.")
+                                  "Offset of the picture's centre to the right of the optical "
+                                  "axis, as a fraction of the width.")
                      .range(-100, 100));
-  rows.push_back(number_parameter("principal_point_offset_y", 0,
-                                  "Where the picture's centre lies below the optical axis, as a "
-                                  "share of its height.")
-                     .range(-100, 100));
+  rows.push_back(
+      number_parameter(
+          "principal_point_offset_y", 0,
+          "Offset of the picture's centre below the optical axis, as a fraction of the height.")
+          .range(-100, 100));
   for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
   return rows;
 }
@@ -140,7 +140,8 @@ TypeInfo camera_info(const std::string& name, const std::string& sentence,
 
 TypeInfo placed_camera_info(const std::string& name, const std::string& sentence,
                             std::vector<Parameter> own_rows, std::vector<Parameter> view_rows) {
-  std::vector<Parameter> rows = {to_world_parameter("From the camera's space to the world.")};
+  std::vector<Parameter> rows = {
+      to_world_parameter("Transform from the camera's space to the world.")};
   for (auto* some : {&own_rows, &view_rows})
     rows.insert(rows.end(), std::make_move_iterator(some->begin()),
                 std::make_move_iterator(some->end()));

@@ -71,15 +71,14 @@ Distant::Distant(const CameraInputs& inputs)
 const TypeInfo& distant_info() {
   static const TypeInfo info = camera_info(
       "distant",
-      "Measures the radiance that leaves the scene in one direction, seen from infinitely far "
-      "away: "
-      "its mean over a target, which may be a shape within this one, a point, or the cross-section "
-      "of the sphere around the scene; every pixel shows it, so that one is enough.",
-      {to_world_parameter("From the camera's space, where it looks along +z, to the world."),
-       optional(
-           point_parameter("direction", {0, 0, 1}, "Along which it looks; instead of `to_world`."))
+      "Measures the mean radiance that leaves the scene in one direction, over a nested shape, a "
+      "point, or the cross-section of the sphere around the scene. Every pixel shows the same "
+      "value, so one is enough.",
+      {to_world_parameter("Transform from the camera's space to the world. It looks along +z."),
+       optional(point_parameter("direction", {0, 0, 1},
+                                "Direction in which it looks, instead of `to_world`."))
            .instead_of("to_world"),
-       optional(point_parameter("target", {0, 0, 0}, "Point that it looks at.").in("m"))});
+       optional(point_parameter("target", {0, 0, 0}, "Point at which it looks.").in("m"))});
   return info;
 }
 

@@ -10,7 +10,7 @@ const std::vector<TypeInfo>& sampler_infos() {
       list.push_back(
           {"sampler",
            name,
-           "Kaustik has one sampler (Owen-scrambled Sobol points); only the count is used.",
+           "Kaustik has one sampler (Owen-scrambled Sobol points), so only the count is used.",
            {integer_parameter("sample_count", 4, "Samples per pixel.").range(1, 1 << 24),
             ignored_parameter("seed", ParameterKind::integer),
             ignored_parameter("jitter", ParameterKind::boolean),

@@ -144,13 +144,12 @@ class Fisheye final : public Camera {
 const TypeInfo& fisheye_info() {
   static const TypeInfo info = placed_camera_info(
       "fisheye",
-      "Camera that shows all within an angle of its direction of view in a circle, as wide as the "
-      "picture's shorter side; black outside.",
-      {choice_parameter("mapping", "equidistant",
-                        {"equidistant", "equisolid", "stereographic", "hemispherical"},
-                        "Where in the circle an angle from the direction of view is seen: "
-                        "proportional to the angle; so that equal areas are equal solid angles; "
-                        "so that shapes are kept; as the hemisphere is seen from afar."),
+      "Camera that shows all directions within an angle of its view direction, in a circle as wide "
+      "as the picture's shorter side. Black outside.",
+      {choice_parameter(
+           "mapping", "equidistant", {"equidistant", "equisolid", "stereographic", "hemispherical"},
+           "Distance from the circle's centre: proportional to the angle, with equal areas for "
+           "equal solid angles, with shapes kept, or like a hemisphere seen from afar."),
        number_parameter("fov", 180, "Field of view, from rim to rim.")
            .range(1e-2, 360)
            .in("degrees")});

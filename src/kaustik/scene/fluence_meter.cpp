@@ -30,9 +30,10 @@ class FluenceMeter final : public Camera {
 const TypeInfo& fluence_meter_info() {
   static const TypeInfo info = camera_info(
       "fluencemeter",
-      "Measures the mean radiance at a point over all directions, of all but point, spot and "
-      "directional lamps themselves; every pixel shows it, so that one is enough.",
-      {to_world_parameter("From the meter's space, whose origin is the point, to the world.")});
+      "Measures the mean radiance at a point over all directions, without the direct light of "
+      "point, spot and directional lamps. Every pixel shows the same value, so one is enough.",
+      {to_world_parameter(
+          "Transform from the meter's space to the world. The point is at the origin.")});
   return info;
 }
 

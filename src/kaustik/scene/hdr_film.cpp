@@ -20,27 +20,28 @@ Rows film_rows() {
       integer_parameter("crop_offset_y", 0, "Upper edge of the crop window.")
           .range(0, 1 << 20)
           .in("pixels"),
-      optional(integer_parameter("crop_width", 1, "Width of the crop window; the rest if absent.")
+      optional(integer_parameter("crop_width", 1,
+                                 "Width of the crop window; up to the right edge if absent.")
                    .range(1, 1 << 20)
                    .in("pixels")),
-      optional(integer_parameter("crop_height", 1, "Height of the crop window; the rest if absent.")
+      optional(integer_parameter("crop_height", 1,
+                                 "Height of the crop window; down to the lower edge if absent.")
                    .range(1, 1 << 20)
                    .in("pixels")),
       number_parameter("exposure", 0,
-                       "Doublings of the light where tone mapping takes an exposure; files that "
-                       "hold light itself are not changed.")
+                       "Exposure added by tone mapping operators that take one. Files that hold "
+                       "radiance are not changed.")
           .range(-100, 100)
           .in("stops"),
-      number_parameter("iso", 100, "Sensitivity: twice as much is one stop more of exposure.")
+      number_parameter("iso", 100, "Sensitivity. Twice the value is one stop more exposure.")
           .range(1e-3, 1e9),
       choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
-                       "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
-                       "the first surface behind each pixel, whatever that is made of."),
+                       "Radiance in W/(sr m²), or irradiance in W/m² on the visible side of the "
+                       "first surface behind each pixel, whatever its material."),
       choice_parameter("layers", "all", {"all", "none"},
-                       "What EXR images hold beside the picture and the light of lamps in it: "
-                       "components, albedo, normal, "
-                       "depth, error and noise of each pixel, or nothing, which takes less "
-                       "memory. Other images have no layers and need none."),
+                       "Layers of EXR images beside the picture and the emission of lamps: "
+                       "components, albedo, normal, depth, error and noise of each pixel, or none, "
+                       "which saves memory. Other images have no layers."),
       ignored_parameter("file_format", ParameterKind::text),
       ignored_parameter("pixel_format", ParameterKind::text),
       ignored_parameter("component_format", ParameterKind::text),
@@ -63,8 +64,8 @@ std::vector<TypeInfo> make_film_infos() {
   using enum ParameterKind;
   const Rows display = {ignored_parameter("tonemap_method", text), ignored_parameter("key", number),
                         ignored_parameter("burn", number)};
-  return {{"film", "hdrfilm",
-           "The picture: its size, crop window and pixel filter, and what it holds.", film_rows()},
+  return {{"film", "hdrfilm", "The picture: its size, crop window, pixel filter and content.",
+           film_rows()},
           foreign_film("ldrfilm", "Mitsuba 0.6's film of pictures for displays.", display),
           foreign_film("mfilm", "Mitsuba 0.6's film of tables.",
                        {ignored_parameter("digits", integer), ignored_parameter("variable", text)}),

@@ -65,11 +65,11 @@ class IrradianceMeter final : public Camera {
 };
 
 const TypeInfo& irradiance_meter_info() {
-  static const TypeInfo info = camera_info(
-      "irradiancemeter",
-      "Measures the mean irradiance, W/m², of the shape that it stands in, on the side of its "
-      "normals; every pixel shows it, so that one is enough.",
-      {});
+  static const TypeInfo info =
+      camera_info("irradiancemeter",
+                  "Measures the mean irradiance, W/m², of the shape that holds it, on the side of "
+                  "the normals. Every pixel shows the same value, so one is enough.",
+                  {});
   return info;
 }
 

@@ -50,11 +50,10 @@ class Orthographic final : public Camera {
 };
 
 const TypeInfo& orthographic_info() {
-  static const TypeInfo info =
-      placed_camera_info("orthographic",
-                         "Camera that sees along parallel lines; the scale of to_world is half of "
-                         "the picture's width.",
-                         {ignored_parameter("focus_distance", ParameterKind::number)});
+  static const TypeInfo info = placed_camera_info(
+      "orthographic",
+      "Camera that sees along parallel lines. The scale of to_world is half the picture's width.",
+      {ignored_parameter("focus_distance", ParameterKind::number)});
   return info;
 }
 

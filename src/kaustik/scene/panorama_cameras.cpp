@@ -139,19 +139,19 @@ class CylinderCamera final : public Panorama {
 };
 
 const TypeInfo& spherical_camera_info() {
-  static const TypeInfo info = placed_camera_info(
-      "spherical",
-      "Camera that shows all directions by longitude and latitude, best in a picture twice as wide "
-      "as high; the middle looks along +z, up is +y.",
-      {});
+  static const TypeInfo info =
+      placed_camera_info("spherical",
+                         "Camera that shows all directions by longitude and latitude, best in a "
+                         "picture twice as wide as high. The middle looks along +z; up is +y.",
+                         {});
   return info;
 }
 
 const TypeInfo& cylinder_camera_info() {
   static const TypeInfo info = placed_camera_info(
       "cylinder",
-      "Camera that shows what is around an upright axis on a cylinder, unrolled; the middle looks "
-      "along +z, up is +y, and pixels on the horizon are as wide as high.",
+      "Camera that projects the surroundings on an upright cylinder and unrolls it. The middle "
+      "looks along +z; up is +y; pixels on the horizon are square.",
       {number_parameter("fov", 360, "Field of view along the picture's width.")
            .range(1e-2, 360)
            .in("degrees")});

@@ -26,7 +26,7 @@ class Perspective final : public Camera {
 const TypeInfo& perspective_info() {
   static const TypeInfo info = placed_camera_info(
       "perspective",
-      "Pinhole camera that looks along +z of its own space; +x points to the left of the picture.",
+      "Pinhole camera that looks along +z of its own space. +x points to the left of the picture.",
       {ignored_parameter("focus_distance", ParameterKind::number)}, straight_view_parameters());
   return info;
 }

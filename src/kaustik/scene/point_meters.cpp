@@ -185,26 +185,26 @@ class RadianceRays final : public Camera {
 const TypeInfo& irradiance_points_info() {
   static const TypeInfo info = camera_info(
       "irradiancepoints",
-      "Measures the irradiance, W/m², at points in the air and on surfaces, of all lamps; each has "
-      "a pixel of its own, in rows of 1024. Without lists it measures at one point.",
-      {to_world_parameter("From the meter's space to the world; the one point lies at 0, and its "
-                          "normal is +z."),
-       array_parameter("points", {0, 3}, "Where it measures; with normals."),
+      "Measures the irradiance, W/m², of all lamps at points in the air and on surfaces. Each "
+      "point has its own pixel, in rows of 1024. Without lists there is one point.",
+      {to_world_parameter("Transform from the meter's space to the world. Without lists the point "
+                          "is at 0 and its normal is +z."),
+       array_parameter("points", {0, 3}, "Points to measure at; needs normals."),
        array_parameter("normals", {0, 3},
-                       "To the side that is measured, of any length, one for each point.")});
+                       "Normals toward the measured side, of any length, one for each point.")});
   return info;
 }
 
 const TypeInfo& radiance_rays_info() {
-  static const TypeInfo info = camera_info(
-      "radiancerays",
-      "Measures the radiance, W/(sr m²), that arrives along rays; each has a pixel of its own, in "
-      "rows of 1024. Without lists it measures along one ray.",
-      {to_world_parameter("From the meter's space to the world; the one ray begins at 0 and goes "
-                          "along +z."),
-       array_parameter("origins", {0, 3}, "Where the rays begin; with directions."),
-       array_parameter("directions", {0, 3},
-                       "Along which they look, of any length, one for each origin.")});
+  static const TypeInfo info =
+      camera_info("radiancerays",
+                  "Measures the radiance, W/(sr m²), that arrives along rays. Each ray has its own "
+                  "pixel, in rows of 1024. Without lists there is one ray.",
+                  {to_world_parameter("Transform from the meter's space to the world. Without "
+                                      "lists the ray begins at 0 and goes along +z."),
+                   array_parameter("origins", {0, 3}, "Origins of the rays; needs directions."),
+                   array_parameter("directions", {0, 3},
+                                   "Directions of the rays, of any length, one for each origin.")});
   return info;
 }
 

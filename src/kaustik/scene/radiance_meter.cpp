@@ -38,15 +38,15 @@ class RadianceMeter final : public Camera {
 const TypeInfo& radiance_meter_info() {
   static const TypeInfo info = camera_info(
       "radiancemeter",
-      "Measures the radiance that arrives along a single ray; every pixel shows it, so that one is "
-      "enough.",
-      {to_world_parameter("From the meter's space, where the ray begins at 0 and goes along +z, to "
-                          "the world."),
+      "Measures the radiance that arrives along a single ray. Every pixel shows the same value, so "
+      "one is enough.",
+      {to_world_parameter(
+           "Transform from the meter's space to the world. The ray begins at 0 and goes along +z."),
        optional(point_parameter("origin", {0, 0, 0},
-                                "Where the ray begins; with direction, if there is no to_world.")
+                                "Origin of the ray; with direction, instead of to_world.")
                     .in("m")),
        optional(point_parameter("direction", {0, 0, 1},
-                                "Along which it looks; with origin, if there is no to_world."))});
+                                "Direction of the ray; with origin, instead of to_world."))});
   return info;
 }
 

@@ -101,7 +101,7 @@ Lobe windowed_sinc(double lobes) {
 }
 
 constexpr const char* kept =
-    " Only its lobe in the middle is kept: the negative ones would be noise.";
+    " Only the central lobe is kept, because negative lobes would add noise.";
 
 TypeInfo row(const std::string& name, const std::string& sentence, std::vector<Parameter> rows) {
   return {"rfilter", name, sentence + kept, std::move(rows)};
@@ -112,7 +112,7 @@ TypeInfo row(const std::string& name, const std::string& sentence, std::vector<P
 FilterType mitchell_filter_type() {
   static const TypeInfo info =
       row("mitchell", "Mitchell and Netravali's cubic, a compromise between blur and ringing.",
-          {number_parameter("B", 1.0 / 3, "Share of the smooth B-spline.").range(0, 1),
+          {number_parameter("B", 1.0 / 3, "Weight of the smooth B-spline.").range(0, 1),
            number_parameter("C", 1.0 / 3, "Strength of the negative lobes.").range(0, 1)});
   return {info, [](const Arguments& arguments) {
             return middle_lobe(cubic(arguments.number("B"), arguments.number("C")), 2);

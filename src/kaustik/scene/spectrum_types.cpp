@@ -69,9 +69,11 @@ const TypeInfo& blackbody_info() {
   static const TypeInfo info{
       "texture",
       "blackbody",
-      "Light of a black body by Planck's law, W/(sr·m²·nm).",
-      {required(number_parameter("temperature", 5000, "Its temperature.")).range(1, 1e6).in("K"),
-       number_parameter("scale", 1, "Factor on the light.").range(0, 1e30),
+      "Radiance of a black body by Planck's law, W/(sr·m²·nm).",
+      {required(number_parameter("temperature", 5000, "Temperature of the black body."))
+           .range(1, 1e6)
+           .in("K"),
+       number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
        wavelength_parameter("wavelength_min", 360, "Shorter wavelengths are left out."),
        wavelength_parameter("wavelength_max", 830, "Longer wavelengths are left out.")}};
   return info;
@@ -94,12 +96,13 @@ const TypeInfo& d65_info() {
   static const TypeInfo info{
       "texture",
       "d65",
-      "Light of the colour white: daylight as the CIE defines it, of the luminance 1.",
-      {number_parameter("scale", 1, "Factor on the light; a texture within it is left as it is.")
+      "White light: the CIE's daylight D65 with luminance 1.",
+      {number_parameter("scale", 1, "Factor on the radiance. A nested texture is not scaled.")
            .range(0, 1e30),
-       optional(color_parameter("color", 1,
-                                "Share of daylight that is left; a texture of any name may stand "
-                                "instead."))
+       optional(
+           color_parameter(
+               "color", 1,
+               "Colour that multiplies daylight. A nested texture of any name may replace it."))
            .textured()}};
   return info;
 }
@@ -118,10 +121,10 @@ const TypeInfo& regular_info() {
   static const TypeInfo info{
       "texture",
       "regular",
-      "A curve by values at equal distances, linear between them and zero outside.",
-      {required(wavelength_parameter("wavelength_min", 360, "Where the first value is.")),
-       required(wavelength_parameter("wavelength_max", 830, "Where the last value is.")),
-       required(text_parameter("values", "", "Numbers, at least two."))}};
+      "A curve with values at equal distances, linear between them and zero outside.",
+      {required(wavelength_parameter("wavelength_min", 360, "Wavelength of the first value.")),
+       required(wavelength_parameter("wavelength_max", 830, "Wavelength of the last value.")),
+       required(text_parameter("values", "", "Values, at least two."))}};
   return info;
 }
 
@@ -148,9 +151,9 @@ const TypeInfo& irregular_info() {
   static const TypeInfo info{
       "texture",
       "irregular",
-      "A curve by values at given wavelengths, linear between them and zero outside.",
-      {required(text_parameter("wavelengths", "", "In nm, ascending, at least two.")),
-       required(text_parameter("values", "", "One for each wavelength."))}};
+      "A curve with values at given wavelengths, linear between them and zero outside.",
+      {required(text_parameter("wavelengths", "", "Wavelengths in nm, ascending, at least two.")),
+       required(text_parameter("values", "", "One value for each wavelength."))}};
   return info;
 }
 
@@ -160,7 +163,7 @@ const TypeInfo& uniform_info() {
   static const TypeInfo info{
       "texture",
       "uniform",
-      "One number for all colour channels; on a lamp it is white, as in Mitsuba's RGB mode.",
+      "One number for all colour channels. On a lamp it is white, as in Mitsuba's RGB mode.",
       {required(number_parameter("value", 1, "The number.")),
        ignored_parameter("wavelength_min", ParameterKind::number),
        ignored_parameter("wavelength_max", ParameterKind::number)}};

@@ -69,8 +69,8 @@ class Telecentric final : public Camera {
 const TypeInfo& telecentric_info() {
   static const TypeInfo info = placed_camera_info(
       "telecentric",
-      "Orthographic camera with a lens: what is nearer or farther than focus_distance is blurred.",
-      lens_parameters(number_parameter("aperture_radius", 0, "Radius of the lens, in the world.")));
+      "Orthographic camera with a lens. It blurs everything nearer or farther than focus_distance.",
+      lens_parameters(number_parameter("aperture_radius", 0, "Radius of the lens in the world.")));
   return info;
 }
 

@@ -49,7 +49,7 @@ CameraConnection ThinLens::connect(const Vec3f& point, const LensNumbers& number
 const TypeInfo& thin_lens_info() {
   static const TypeInfo info = placed_camera_info(
       "thinlens",
-      "Camera with a thin lens: what is nearer or farther than focus_distance is blurred.",
+      "Camera with a thin lens. It blurs everything nearer or farther than focus_distance.",
       lens_parameters(required(number_parameter("aperture_radius", 0.01, "Radius of the lens."))),
       straight_view_parameters());
   return info;

@@ -35,41 +35,40 @@ TypeTables all_of_scenes() {
 }  // namespace
 
 const TypeInfo& shapegroup_info() {
-  static const TypeInfo info{
-      "shape",
-      "shapegroup",
-      "Shapes, or a whole scene with lamps and instances of other groups, that appear only "
-      "through instances.",
-      {}};
+  static const TypeInfo info{"shape",
+                             "shapegroup",
+                             "Shapes, or a whole scene with lamps and instances, that appear only "
+                             "where an instance places them.",
+                             {}};
   return info;
 }
 
 const TypeInfo& instance_info() {
-  static const TypeInfo info{"shape",
-                             "instance",
-                             "Places a shape group once more.",
-                             {to_world_parameter("From the group's space to the world.")}};
+  static const TypeInfo info{
+      "shape",
+      "instance",
+      "Places a copy of a shape group.",
+      {to_world_parameter("Transform from the group's space to the world.")}};
   return info;
 }
 
 const TypeInfo& merge_info() {
-  static const TypeInfo info{
-      "shape",
-      "merge",
-      "Stands for the shapes in it; Mitsuba merges those that are alike, which is faster there.",
-      {}};
+  static const TypeInfo info{"shape",
+                             "merge",
+                             "Holds other shapes and changes nothing. Mitsuba merges similar "
+                             "shapes, which is faster there.",
+                             {}};
   return info;
 }
 
 const TypeInfo& batch_info() {
-  static const TypeInfo info{
-      "sensor",
-      "batch",
-      "Holds several sensors, each of which is a camera of the scene for --camera to choose: with "
-      "the batch's sampler, and its film, of whose width each has its share.",
-      {ignored_parameter("shutter_open", ParameterKind::number),
-       ignored_parameter("shutter_close", ParameterKind::number),
-       ignored_parameter("srf", ParameterKind::color)}};
+  static const TypeInfo info{"sensor",
+                             "batch",
+                             "Holds several sensors; --camera chooses one. Each has the batch's "
+                             "sampler and film, with an equal part of the film's width.",
+                             {ignored_parameter("shutter_open", ParameterKind::number),
+                              ignored_parameter("shutter_close", ParameterKind::number),
+                              ignored_parameter("srf", ParameterKind::color)}};
   return info;
 }
 

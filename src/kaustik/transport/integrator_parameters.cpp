@@ -15,8 +15,8 @@ std::vector<std::string> valid_components() {
 
 Parameter components_parameter() {
   return text_parameter("components", "all",
-                        "Parts of the light to compute, separated by commas: emission, direct, "
-                        "caustic, indirect, specular, volume, or all.");
+                        "Components to compute, separated by commas: emission, direct, caustic, "
+                        "indirect, specular, volume, or all.");
 }
 
 ComponentSet read_components(const Arguments& arguments) {
@@ -42,8 +42,9 @@ ComponentSet read_components(const Arguments& arguments) {
 }
 
 Parameter max_depth_parameter() {
-  return integer_parameter("max_depth", -1,
-                           "Longest path in segments (1: lamps alone, 2: direct light); -1: any.")
+  return integer_parameter(
+             "max_depth", -1,
+             "Longest path in segments (1: only lamps, 2: direct light); -1: no limit.")
       .range(-1, 1 << 20);
 }
 
@@ -53,9 +54,9 @@ Parameter rr_depth_parameter() {
 }
 
 Parameter hide_emitters_parameter() {
-  return boolean_parameter("hide_emitters", false,
-                           "The camera sees no lamp and no surroundings themselves: all are as "
-                           "with their 'visible' false.");
+  return boolean_parameter(
+      "hide_emitters", false,
+      "Hides all lamps and surroundings from the camera, as if each had 'visible' = false.");
 }
 
 int read_maximum_events(const Arguments& arguments) {

@@ -12,8 +12,8 @@ namespace {
 
 Parameter adaptive_parameter() {
   return boolean_parameter("adaptive", true,
-                           "Pixels whose samples differed in the passes before get more of them, "
-                           "at the cost of others; where light paths may merge.");
+                           "Gives more samples to pixels whose samples differed in earlier passes, "
+                           "at the cost of others. Only if light paths may merge.");
 }
 
 /// The table of a preset.
@@ -24,63 +24,57 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       rr_depth_parameter(),
       aim_parameter(),
       boolean_parameter("guiding", true,
-                        "Light paths are learned from those that reach what the camera sees: which "
-                        "lights they begin at, and where they go. A share of them goes on as "
-                        "without."),
+                        "Light paths learn from those that reach the surfaces in view: at which "
+                        "lights to begin, and where to go. A fraction stays unguided."),
       boolean_parameter("guided_scattering", true,
-                        "Where light paths are learned, so is where they go on from matt "
-                        "surfaces."),
+                        "Guided light paths also learn where to go on from matt surfaces."),
       boolean_parameter("unidirectional", preset.unidirectional,
-                        "Light that the camera's paths meet by chance counts."),
+                        "Counts lights that camera paths hit by chance."),
       boolean_parameter("next_event", preset.next_event,
-                        "Vertices of the camera's paths sample lights."),
+                        "Samples lights at the vertices of camera paths."),
       boolean_parameter("splats", preset.splats,
-                        "Vertices of light paths are connected to the camera."),
+                        "Connects the vertices of light paths to the camera."),
       boolean_parameter("connections", preset.connections,
-                        "Vertices of the camera's paths are connected to vertices of light "
-                        "paths."),
+                        "Connects the vertices of camera paths to vertices of light paths."),
       boolean_parameter("merging", preset.merging,
-                        "Vertices of light paths near a vertex of the camera's path count as if "
-                        "they were there (photon mapping)."),
+                        "Merges vertices of light paths near a vertex of a camera path, as if they "
+                        "were there (photon mapping)."),
       number_parameter("light_paths", 0.25, "Light paths per camera sample.").range(0.001, 1000),
       boolean_parameter("choose_light_paths", false,
-                        "A pilot chooses how many light paths there are, or none at all; "
-                        "light_paths is what it looks at first. With it ppm is auto."),
-      integer_parameter("connection_samples", 1,
-                        "Vertices of light paths that each vertex of the camera's paths is "
-                        "connected to.")
-          .range(1, 1024),
+                        "A pilot chooses the number of light paths, or none; it starts from "
+                        "light_paths. With it ppm becomes auto."),
       integer_parameter(
-          "merge_neighbors", 30,
-          "Vertices of light paths that the first radius of merging is made for, where radii "
-          "are not learned.")
+          "connection_samples", 1,
+          "Number of light vertices to which each vertex of a camera path is connected.")
+          .range(1, 1024),
+      integer_parameter("merge_neighbors", 30,
+                        "Number of light vertices for which the first radius of merging is made, "
+                        "if radii are not learned.")
           .range(1, 1 << 20),
-      number_parameter(
-          "radius", 0,
-          "Radius of merging in the first pass; it shrinks from pass to pass. 0: it is "
-          "learned, or follows from the density of the light paths.")
+      number_parameter("radius", 0,
+                       "Radius of merging in the first pass; it shrinks from pass to pass. 0: "
+                       "learned, or derived from the density of light paths.")
           .range(0, 1e30)
           .in("m"),
       boolean_parameter("learn_radii", true,
-                        "Radii are learned from the light paths of a pilot and of the passes "
-                        "before; else those of the first pass shrink."),
+                        "Learns radii from the light paths of a pilot and of earlier passes. If "
+                        "false, the radii of the first pass shrink."),
       boolean_parameter("edges", true,
-                        "Disks of merging end at the straight edges around them, with kernels that "
-                        "light's gradient does not bias."),
+                        "Ends merging disks at straight edges around them. A gradient of the "
+                        "irradiance does not bias their kernels."),
       boolean_parameter("visibility", true,
-                        "Vertices of light paths merge only where nothing opaque hides them."),
+                        "Merges only light vertices that nothing opaque hides."),
       boolean_parameter("choose_survival", true,
-                        "A pilot chooses, place by place, how often the camera's paths go on "
-                        "beside what merges; else they always do."),
+                        "A pilot chooses, place by place, how often camera paths go on where they "
+                        "also merge. If false, they always go on."),
       boolean_parameter("choose_light_samples", true,
-                        "With merging on, a pilot chooses, place by place, how many lights the "
-                        "first vertex of the camera's paths samples; else it samples one."),
+                        "With merging, a pilot chooses, place by place, how many lights the first "
+                        "vertex of a camera path samples. If false, it samples one."),
       choice_parameter(
           "indirect_cache", "choose", {"never", "choose", "always"},
-          "Diffuse indirect light is gathered at some places of what the camera sees, "
-          "and interpolated between them where it is smooth: where a pilot says that "
-          "this pays, or in any case. It needs merging, next_event and unidirectional, "
-          "no splats or connections, and no medium that scatters light."),
+          "Gathers diffuse indirect light at some points in view and interpolates it where it is "
+          "smooth: never, where a pilot finds that it pays, or always. Needs merging, next_event "
+          "and unidirectional, no splats or connections, and no scattering medium."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
       adaptive_parameter(),
       hide_emitters_parameter()};
@@ -90,11 +84,10 @@ std::vector<Parameter> parameters(const Techniques& preset) {
 }  // namespace
 
 const TypeInfo& vcm_info() {
-  static const TypeInfo info{
-      "integrator", "vcm",
-      "Vertex connection and merging: paths from the camera and from the lights, combined in every "
-      "way; each way can be switched off.",
-      parameters({.splats = true, .connections = true, .merging = true})};
+  static const TypeInfo info{"integrator", "vcm",
+                             "Vertex connection and merging: combines paths from the camera and "
+                             "the lights in every way. Each way can be switched off.",
+                             parameters({.splats = true, .connections = true, .merging = true})};
   return info;
 }
 
@@ -106,22 +99,20 @@ const TypeInfo& bdpt_info() {
 }
 
 const TypeInfo& ppm_info() {
-  static const TypeInfo info{
-      "integrator", "ppm",
-      "Progressive photon mapping: vcm with merging at the camera's vertices, light sampling and "
-      "lights met by chance.",
-      parameters({.merging = true})};
+  static const TypeInfo info{"integrator", "ppm",
+                             "Progressive photon mapping: vcm with merging at camera vertices, "
+                             "light sampling, and lights hit by chance.",
+                             parameters({.merging = true})};
   return info;
 }
 
 const TypeInfo& auto_info() {
-  static const TypeInfo info{
-      "integrator",
-      "auto",
-      "Chooses by itself, region by region, between paths from the camera and light paths that "
-      "merge with them; needs no parameter.",
-      {components_parameter(), max_depth_parameter(), rr_depth_parameter(), adaptive_parameter(),
-       hide_emitters_parameter()}};
+  static const TypeInfo info{"integrator",
+                             "auto",
+                             "Chooses by itself, region by region, between camera paths and light "
+                             "paths that merge with them. Needs no parameter.",
+                             {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
+                              adaptive_parameter(), hide_emitters_parameter()}};
   return info;
 }
 

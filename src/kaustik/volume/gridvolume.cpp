@@ -16,15 +16,15 @@ const TypeInfo& gridvolume_info() {
       {file_parameter("filename",
                       "File of Mitsuba's format VOL: floats or bytes, 1, 3 or 6 channels."),
        array_parameter("data", {},
-                       "Samples [z, y, x] or [z, y, x, 1, 3 or 6] from the buffer of a program "
-                       "instead of the file: uint8, uint16, float32 or float64.")
+                       "Samples [z, y, x] or [z, y, x, 1, 3 or 6] from a program's buffer, instead "
+                       "of the file: uint8, uint16, float32 or float64.")
            .instead_of("filename"),
        choice_parameter("filter_type", "trilinear", {"trilinear", "nearest"},
-                        "How values between samples come about."),
+                        "Interpolation between samples."),
        choice_parameter("wrap_mode", "clamp", {"clamp", "repeat", "mirror"},
-                        "What is outside of the cube; density ends there in any case."),
+                        "Values outside the cube. Density always ends there."),
        boolean_parameter("use_grid_bbox", false,
-                         "Put the samples into the box that the file tells, not into the cube."),
+                         "Puts the samples into the box that the file gives, instead of the cube."),
        to_world_parameter("Places the cube, or the file's box, in the world."),
        ignored_parameter("raw", ParameterKind::boolean),
        ignored_parameter("accel", ParameterKind::boolean),

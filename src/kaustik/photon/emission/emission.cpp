@@ -93,10 +93,10 @@ float EmissionSampler::pdf(int light, const SurfacePoint& origin, const Vec3f& d
 }
 
 Parameter aim_parameter() {
-  return choice_parameter("aim", "boxes", {"none", "boxes", "projection_map"},
-                          "How photons for caustics are aimed at specular objects: not at all, at "
-                          "the spheres around their boxes, or through the cells of a projection "
-                          "map that their boxes are seen in.");
+  return choice_parameter(
+      "aim", "boxes", {"none", "boxes", "projection_map"},
+      "How caustic photons are aimed at specular objects: not at all, at spheres around their "
+      "boxes, or through the cells of a projection map that show the boxes.");
 }
 
 Aim read_aim(const std::string& name) {
