@@ -32,10 +32,11 @@ if command -v node >/dev/null; then
   node "$root/tests/contrib_flamenco.js" "$root/contrib/flamenco" || fail "flamenco/kaustik.js"
 fi
 
-# part.sbatch: a signal to the script reaches the program, and exit code 75 queues the task again.
+# part.sbatch: exit code 75 queues the task again. As Slurm does, the signal goes to the step, not to the script.
 cat >"$work/srun" <<'STUB'
 #!/usr/bin/env bash
 while [[ $1 == --* ]]; do shift; done
+echo $$ >"$(dirname "$0")/step"
 exec "$@"
 STUB
 cat >"$work/scontrol" <<'STUB'
@@ -56,7 +57,7 @@ for ((i = 0; i < 600; ++i)); do
   [[ -s part_2.kpt ]] && break
   sleep 0.1
 done
-kill -TERM "$job"
+kill -TERM "$(<step)"
 code=0
 wait "$job" || code=$?
 [[ $code -eq 75 ]] || { fail "part.sbatch ended with $code"; cat log >&2; }

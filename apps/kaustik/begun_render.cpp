@@ -6,6 +6,7 @@
 
 #include "kaustik/base/version.h"
 #include "kaustik/render/program_version.h"
+#include "kaustik/render/resume.h"
 
 namespace kaustik::app {
 namespace {
@@ -57,7 +58,8 @@ void go_on_with(const std::string& checkpoint, JobSettings& job) {
   job.learned.reset();
   job.record.recipe.lessons = was.recipe.lessons;
   job.record.seconds = was.seconds;
-  if (job.record.plan.seconds) *job.record.plan.seconds += was.seconds;
+  // Parts have their time anew in each try: it only ends them early.
+  if (!job.session.part) keep_to_time(job.session, job.record.plan.seconds, begun);
   job.begun = std::move(begun);
   job.begun_path = checkpoint;
 }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "commands.h"
 #include "failures.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/photon_tracing.h"
+#include "kaustik/scene/file_stamp.h"
 #include "merge_options.h"
 #include "option_values.h"
 #include "screen.h"
@@ -34,30 +36,53 @@ void merge_photons(const MergeOptions& options, FileRoles& roles) {
       whole.maps.caustic.size());
 }
 
-/// Images hold neither passes nor photons: what they are made of would be lost.
+/// Whether all that the parts hold is in it: images have neither passes nor photons.
+bool holds_all(const std::string& output) {
+  return output.ends_with(".kpt") || output.ends_with(".kpm");
+}
+
 void check_consumption(const MergeOptions& options) {
-  const auto holds_all = [](const std::string& output) {
-    return output.ends_with(".kpt") || output.ends_with(".kpm");
-  };
   if (options.consume && std::ranges::none_of(options.outputs, holds_all))
     throw Error(ErrorKind::input, "nothing that is written holds what the parts hold",
                 "write a checkpoint (-o FILE.kpt) or a photon map (-o FILE.kpm) as well",
                 place_in("command line: --consume"));
 }
 
-/// The parts but those that an output has replaced.
-void remove_parts(const MergeOptions& options) {
+/// A part, and what the system told of its file before it was read.
+struct Part {
+  std::string path;
+  std::optional<FileStamp> stamp;
+};
+
+std::vector<Part> parts_of(const MergeOptions& options) {
+  std::vector<Part> parts;
+  for (const std::string& input : options.inputs) parts.push_back({input, stamp_of_file(input)});
+  return parts;
+}
+
+/// What a task has put in its place since then is in no output.
+void remove_part(const Part& part) {
+  if (stamp_of_file(part.path) != part.stamp)
+    throw Error(ErrorKind::input, "it was written anew while it was merged, and stays",
+                "see whether a task still renders it, then remove it", place_in(part.path));
+  std::filesystem::remove(part.path);
+}
+
+/// All but those that an output has replaced.
+void remove_parts(const std::vector<Part>& parts, const std::vector<std::string>& outputs) {
   Failures failures;
   size_t count = 0;
-  for (const std::string& input : options.inputs) {
-    const auto is_input = [&](const std::string& output) { return is_same_file(input, output); };
-    if (std::ranges::any_of(options.outputs, is_input)) continue;
-    failures.attempt_to(fmt::format("remove '{}'", input), [&] {
-      std::filesystem::remove(input);
+  for (const Part& part : parts) {
+    const auto is_it = [&](const std::string& output) { return is_same_file(part.path, output); };
+    if (std::ranges::any_of(outputs, is_it)) continue;
+    failures.attempt_to(fmt::format("remove '{}'", part.path), [&] {
+      remove_part(part);
       ++count;
     });
   }
-  say("removed {} parts, which are in {}", count, options.outputs.front());
+  if (count > 0)
+    say("removed {} part{}: what they held is in {}", count, count == 1 ? "" : "s",
+        *std::ranges::find_if(outputs, holds_all));
   failures.throw_if_any();
 }
 
@@ -65,6 +90,7 @@ void merge(const MergeOptions& options) {
   check_consumption(options);
   FileRoles roles;
   for (const std::string& input : options.inputs) roles.reads(input, options.force);
+  const std::vector<Part> parts = parts_of(options);
   const std::string& first = options.inputs.front();
   if (is_checkpoint(first))
     merge_passes(options, roles);
@@ -75,7 +101,7 @@ void merge(const MergeOptions& options) {
                 "give files that were written by: kaustik render --checkpoint FILE.kpt, or kaustik "
                 "photons --part I/N",
                 place_in(first));
-  if (options.consume) remove_parts(options);
+  if (options.consume) remove_parts(parts, options.outputs);
 }
 
 }  // namespace
@@ -88,7 +114,8 @@ void add_merge(CLI::App& program) {
   command->footer(
       "The result has the same bits as a single run, whatever the order of the parts. A checkpoint "
       "of some parts can be merged with others. Passes need the memory of one film, however many "
-      "parts there are. If a part is damaged, given twice, or of another render, nothing is written "
+      "parts there are. If a part is damaged, given twice, or of another render, nothing is "
+      "written "
       "and nothing is removed.");
   auto o = std::make_shared<MergeOptions>();
   takes_files(command
@@ -108,7 +135,7 @@ void add_merge(CLI::App& program) {
   command->add_flag("--incomplete", o->incomplete,
                     "Make the picture of the given parts, even if others are missing");
   command->add_flag("--consume", o->consume,
-                    "Remove the parts once the checkpoint or photon map of all of them is written");
+                    "Remove the parts once the checkpoint or photon map of them is written");
   command->add_flag("--force", o->force, "Replace an existing checkpoint or photon map");
   command->callback([o] { merge(*o); });
 }

@@ -40,6 +40,17 @@ void tell_of_missing_parts(const MergedPasses& merged, bool makes_images, bool m
     note(text);
 }
 
+/// Who removes a part takes from its task what it would go on with: the same passes would come
+/// again.
+void check_consumed_parts(const MergedPasses& merged) {
+  const MissingParts missing = missing_parts(merged.division, merged.passes);
+  if (missing.unfinished.empty()) return;
+  throw Error(ErrorKind::input, MissingParts{{}, missing.unfinished}.text(merged.division.parts),
+              "finish them first, by their command or kaustik resume; or keep all parts: leave out "
+              "--consume",
+              place_in("command line: --consume"));
+}
+
 /// Of one file after the other, so that one film is in memory. Those that can't be read are told
 /// together.
 Checkpoint merged_checkpoints(const std::vector<std::string>& paths) {
@@ -70,8 +81,9 @@ void merge_passes(const MergeOptions& options, FileRoles& roles) {
   for (const std::string& output : options.outputs)
     if (names_checkpoint(output))
       add_merged_output(roles, output, {"a checkpoint", is_checkpoint}, options.force);
-  tell_of_missing_parts(check_parts(options.inputs, KAUSTIK_VERSION), !images.files.empty(),
-                        options.incomplete);
+  const MergedPasses merged = check_parts(options.inputs, KAUSTIK_VERSION);
+  if (options.consume) check_consumed_parts(merged);
+  tell_of_missing_parts(merged, !images.files.empty(), options.incomplete);
   Checkpoint whole = merged_checkpoints(options.inputs);
   // What is written here is what resume is to write later.
   if (!images.files.empty()) whole.record.outputs.files = images.files;

@@ -139,6 +139,7 @@ void render(RenderOptions options) {
   const bool goes_on = check_checkpoint(options, roles);
   job.session = session_settings(options);
   job.checkpoint = options.checkpoint.value_or("");
+  if (options.resume_if_there) job.owner = CheckpointOwner::perhaps_several;
   job.every_s = parse_duration(options.every, "--every");
   job.build = options.build;
 

@@ -1,6 +1,7 @@
 // Renders that are stopped, gone on with and put together.
 
 #include "kaustik/image/image_io.h"
+#include "tests/apps/arguments.h"
 #include "tests/apps/program.h"
 
 namespace kaustik::test {
@@ -11,16 +12,9 @@ constexpr const char* small_photonmap =
     "<integer name=\"caustic_photons\" value=\"2000\"/>"
     "<integer name=\"cache_samples\" value=\"16\"/></integrator>";
 
-using Arguments = std::vector<std::string>;
-
 struct PassRange {
   int begin, end;
 };
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 class CheckpointCommands : public ProgramTest {
  protected:

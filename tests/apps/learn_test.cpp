@@ -1,11 +1,10 @@
 // kaustik learn, and renders with what it has learned.
 
+#include "tests/apps/arguments.h"
 #include "tests/apps/program.h"
 
 namespace kaustik::test {
 namespace {
-
-using Arguments = std::vector<std::string>;
 
 class LearnCommand : public ProgramTest {
  protected:

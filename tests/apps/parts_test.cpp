@@ -3,17 +3,11 @@
 #include <filesystem>
 
 #include "kaustik/image/image_io.h"
+#include "tests/apps/arguments.h"
 #include "tests/apps/program.h"
 
 namespace kaustik::test {
 namespace {
-
-using Arguments = std::vector<std::string>;
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 class Parts : public ProgramTest {
  protected:
@@ -53,14 +47,22 @@ class Parts : public ProgramTest {
 
 TEST_F(Parts, MakeThePictureOfOneRender) {
   for (const char* integrator : {"path", "auto"}) {
-    SCOPED_TRACE(integrator);
     const Arguments method = {"--integrator", integrator};
     const std::string whole = whole_picture(method);
-    for (const int number : {3, 1, 2}) run_well(part(number, 3, method));
-    EXPECT_FALSE(exists("scene.exr"));
-    run_well({"merge", "part_2.kpt", "part_3.kpt", "part_1.kpt", "-o", "merged.exr"});
-    EXPECT_TRUE(contents("merged.exr") == whole);
-    for (const int number : {1, 2, 3}) std::filesystem::remove(path(file_of(number)));
+    for (const int count : {1, 2, 3, 4, 7}) {
+      SCOPED_TRACE(testing::Message() << integrator << " in " << count << " parts");
+      // The last one first, and merged in another order still.
+      Arguments merge = {"merge", "-o", "merged.exr"};
+      for (int number = count; number >= 1; --number) {
+        run_well(part(number, count, method));
+        merge.push_back(file_of(1 + (number + count / 2) % count));
+      }
+      EXPECT_FALSE(exists("scene.exr"));
+      run_well(merge);
+      EXPECT_TRUE(contents("merged.exr") == whole);
+      for (int number = 1; number <= count; ++number)
+        std::filesystem::remove(path(file_of(number)));
+    }
   }
 }
 
@@ -70,15 +72,12 @@ TEST_F(Parts, AreMergedAsATree) {
   const RunResult left = run_well({"merge", "part_1.kpt", "part_2.kpt", "-o", "left.kpt"});
   EXPECT_TRUE(contains(left.err, "parts 3–4 of 4 are missing")) << left.err;
   run_well({"merge", "part_4.kpt", "part_3.kpt", "-o", "right.kpt"});
-  const RunResult all =
-      run_well({"merge", "right.kpt", "left.kpt", "-o", "merged.exr", "-o", "merged.kpt"});
+  const RunResult all = run_well({"merge", "right.kpt", "left.kpt", "-o", "tree.kpt"});
   EXPECT_FALSE(contains(all.err, "missing")) << all.err;
+  run_well({"merge", "part_1.kpt", "part_2.kpt", "part_3.kpt", "part_4.kpt", "-o", "flat.kpt"});
+  EXPECT_TRUE(contents("tree.kpt") == contents("flat.kpt"));
+  run_well({"merge", "tree.kpt", "-o", "merged.exr"});
   EXPECT_TRUE(contents("merged.exr") == whole);
-  const std::string by_tree = contents("merged.kpt");
-  run_well({"merge", "part_1.kpt", "part_2.kpt", "part_3.kpt", "part_4.kpt", "-o", "other.exr",
-            "-o", "flat.kpt"});
-  EXPECT_TRUE(contents("other.exr") == whole);
-  EXPECT_EQ(contents("flat.kpt").size(), by_tree.size());
 }
 
 TEST_F(Parts, AMergeOfSomeGoesOnToTheWhole) {
@@ -139,6 +138,17 @@ TEST_F(Parts, ConsumedOnesAreGoneWhenTheWholeIsThere) {
   EXPECT_TRUE(contents("b.exr") == whole_picture());
 }
 
+TEST_F(Parts, UnfinishedOnesAreNotConsumed) {
+  const Arguments unfinished = {"render",       "scene.xml", "-D",     "size=48", "--passes",
+                                "100000",       "--spp",     "400000", "--part",  "1/2",
+                                "--checkpoint", "long.kpt",  "--time", "0.2s"};
+  EXPECT_EQ(run(unfinished).exit_code, 75);
+  const Arguments merge = {"merge", "long.kpt", "-o", "new.kpt"};
+  expect_refused(merge + Arguments{"--consume"}, "part 1 of 2 is unfinished", "finish them first");
+  run_well(merge);
+  EXPECT_TRUE(exists("long.kpt"));
+}
+
 TEST_F(Parts, ARepeatedCommandChangesNothing) {
   run_well(part(2, 3));
   const std::string there = contents("part_2.kpt");
@@ -193,9 +203,24 @@ TEST_F(Parts, TimeEndsAPartEarly) {
   EXPECT_EQ(run(command).exit_code, 75);
   EXPECT_EQ(run({"resume", "a.kpt", "--time", "0.2s"}).exit_code, 75);
   EXPECT_FALSE(contents("a.kpt") == size);
-  // Without parts the time is what was asked for.
-  run_well({"render", "scene.xml", "-q", "--passes", "100000", "--time", "0.3s", "--checkpoint",
-            "b.kpt"});
+}
+
+TEST_F(Parts, WithoutPartsTimeIsOfAllTriesTogether) {
+  const Arguments command = {"render", "scene.xml", "--passes",         "100000",
+                             "--time", "0.3s",      "--checkpoint",     "a.kpt",
+                             "-o",     "a.exr",     "--resume-if-there"};
+  run_well(command);
+  const auto passes = [&] {
+    return std::get<int64_t>(*read_image(path("a.exr")).find_metadata("passes"));
+  };
+  const int64_t first = passes();
+  ASSERT_GT(first, 0);
+  run_well(command);
+  EXPECT_EQ(passes(), first);
+  Arguments longer = command;
+  longer[5] = "1s";
+  run_well(longer);
+  EXPECT_GT(passes(), first);
 }
 
 TEST_F(Parts, AnotherCommandDoesNotGoOn) {

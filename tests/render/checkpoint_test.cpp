@@ -479,23 +479,50 @@ TEST_F(CheckpointFile, LittleMemoryIsAnError) {
   EXPECT_GT(bytes().size(), size_t{11} << 20);
 }
 
+constexpr BinaryFileKind sums_kind = {
+    {0x89, 'T', 'S', 'T', '\r', '\n', 0x1a, '\n'}, 1, "file of sums", "", ""};
+
 TEST_F(CheckpointFile, PackedSumsComeBack) {
-  constexpr BinaryFileKind kind = {{0x89, 'T', 'S', 'T', '\r', '\n', 0x1a, '\n'}, 1, "", "", ""};
   std::vector<Fixed> sums = {0, 1, -1, 127, 128, 255, 256, -127, -128, -129, -256};
   for (int shift = 0; shift < 126; ++shift)
     for (const int factor : {1, -1, 3, -3})
       if (shift < 124) sums.push_back(Fixed(factor) * (Fixed(1) << shift));
   std::mt19937_64 generator(4);
-  for (int i = 0; i < 5000; ++i)
+  // More than are read at a time.
+  for (int i = 0; i < 400'000; ++i)
     sums.push_back(Fixed(UnsignedFixed(generator()) << 64 | generator()) >> (i % 127));
-  BinaryWriter writer(kind);
+  BinaryWriter writer(sums_kind);
   put_sums(writer, sums);
   writer.write_to(path());
   // Magic, byte order, version and checksum beside the sums.
   EXPECT_EQ(bytes().size(), packed_size(sums) + 24);
-  BinaryReader reader(kind, path());
+  BinaryReader reader(sums_kind, path());
   EXPECT_TRUE(get_sums(reader, sums.size()) == sums);
   reader.expect_end();
+  EXPECT_THROW(get_sums(reader, 1), Error);
+}
+
+TEST_F(CheckpointFile, WhatIsNoPackedSumIsRefused) {
+  using Bytes = std::vector<uint8_t>;
+  // More kept bytes than follow, none, a first one behind the last, and the number without
+  // opposite.
+  for (const Bytes& packed :
+       {Bytes{0xf0, 1, 2, 3}, Bytes{0x10, 1}, Bytes{0x23}, Bytes{0x12, 5, 5}, Bytes{0xff, 0x80}}) {
+    for (const size_t before : {0, 40}) {
+      BinaryWriter writer(sums_kind);
+      put_sums(writer, std::vector<Fixed>(before, -300));
+      writer.put_bytes(packed.data(), packed.size());
+      writer.write_to(path());
+      BinaryReader reader(sums_kind, path());
+      try {
+        get_sums(reader, before + 1);
+        ADD_FAILURE() << "code " << int(packed[0]);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_NE(std::string(error.what()).find("file of sums is damaged"), std::string::npos);
+      }
+    }
+  }
 }
 
 }  // namespace

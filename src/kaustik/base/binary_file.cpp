@@ -8,7 +8,6 @@
 #include "kaustik/base/checksum.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
-#include "kaustik/base/running_checksum.h"
 
 namespace kaustik {
 namespace {
@@ -148,6 +147,11 @@ std::span<const uint8_t> BinaryReader::get_bytes(uint64_t count) {
   const auto bytes = rest_.first(count);
   rest_ = rest_.subspan(count);
   return bytes;
+}
+
+std::span<const uint8_t> BinaryReader::bytes_ahead(size_t least) {
+  load(size_t(std::min<uint64_t>(least, rest_.size() + unloaded_)));
+  return rest_;
 }
 
 std::string BinaryReader::get_text() {

@@ -83,6 +83,11 @@ class BinaryReader {
   }
   /// Until the next call.
   std::span<const uint8_t> get_bytes(uint64_t count);
+  /// Some of the bytes that follow, at least so many unless fewer do; until the next call. They
+  /// are still to be read.
+  std::span<const uint8_t> bytes_ahead(size_t least);
+  /// Of those ahead.
+  void skip(size_t count) { rest_ = rest_.subspan(count); }
   std::string get_text();
   bool get_flag();
   /// A number of items of at least so many bytes each, which the rest of the file can hold.
@@ -92,7 +97,8 @@ class BinaryReader {
 
   /// Throws unless so many items of this size follow.
   void need(uint64_t count, size_t item_size) const {
-    if (count > (rest_.size() + unloaded_) / item_size) damaged("a count in it is larger than the file");
+    if (count > (rest_.size() + unloaded_) / item_size)
+      damaged("a count in it is larger than the file");
   }
   /// "the photon map is damaged: " and why.
   [[noreturn]] void damaged(const std::string& why) const;

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
+#include "kaustik/base/error.h"
+
 namespace kaustik {
 namespace {
 
@@ -17,10 +22,11 @@ std::chrono::steady_clock::duration duration_of(double seconds) {
 
 }  // namespace
 
-CheckpointKeeper::CheckpointKeeper(std::string path, double interval_s, RenderRecord record,
-                                   const Integrator& integrator,
+CheckpointKeeper::CheckpointKeeper(std::string path, CheckpointOwner owner, double interval_s,
+                                   RenderRecord record, const Integrator& integrator,
                                    std::function<void(const std::string&)> warn)
     : path_(std::move(path)),
+      owner_(owner),
       interval_s_(interval_s),
       record_(std::move(record)),
       integrator_(integrator),
@@ -47,7 +53,26 @@ void CheckpointKeeper::write_last(const Film& film) {
   write(film);
 }
 
+bool CheckpointKeeper::is_behind(const Film& film) const {
+  try {
+    const PassSet there = CheckpointReader(path_, FileCheck::frame_only).film_head().passes;
+    return there.count() > film.pass_count() &&
+           there.common(film.passes()).count() == film.pass_count();
+  } catch (const Error&) {
+    // None is there, or none of use.
+    return false;
+  }
+}
+
 void CheckpointKeeper::write(const Film& film) {
+  if (owner_ == CheckpointOwner::perhaps_several && is_behind(film)) {
+    if (!std::exchange(has_told_, true) && warn_)
+      warn_(
+          fmt::format("'{}' holds more passes than this render has, and stays: another process "
+                      "renders them, too",
+                      path_));
+    return;
+  }
   write_checkpoint(path_, record(), film, integrator_.lessons());
   passes_written_ = film.pass_count() + film.regional_pass_count();
 }

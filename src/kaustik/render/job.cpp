@@ -8,7 +8,6 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
-#include "kaustik/render/checkpoint_keeper.h"
 #include "kaustik/render/preview.h"
 #include "kaustik/render/resume.h"
 #include "kaustik/scene/part_keys.h"
@@ -230,7 +229,7 @@ void Job::render() {
   if (settings_.previews && begins_with_light(*run)) make_preview(*run);
   make_session(*run);
   const bool keeps = !settings_.checkpoint.empty();
-  CheckpointKeeper keeper(settings_.checkpoint, settings_.every_s, result_.record,
+  CheckpointKeeper keeper(settings_.checkpoint, settings_.owner, settings_.every_s, result_.record,
                           *run->prepared.integrator, listener_.messages.warning);
   Session& session = *run->session;
   result_.report = session.run(stop_.get_token(), listener_.progress, [&] {

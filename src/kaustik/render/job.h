@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "kaustik/render/checkpoint_keeper.h"
 #include "kaustik/render/finished_picture.h"
 #include "kaustik/render/learning.h"
 #include "kaustik/render/photon_tracing.h"
@@ -50,6 +51,7 @@ struct JobSettings {
   SessionSettings session;  ///< time counts from `clock_start` on
   BuildOptions build;
   std::string checkpoint;  ///< file that finished passes are kept in; "": none
+  CheckpointOwner owner = CheckpointOwner::one;  ///< of that file
   /// Passes may be kept by Job::save(), too: all have their samples, and the scene its digest.
   bool keeps_passes = false;
   double every_s = 30;              ///< between two checkpoints

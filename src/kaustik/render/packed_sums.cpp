@@ -1,12 +1,23 @@
 #include "kaustik/render/packed_sums.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 
 namespace kaustik {
 namespace {
 
 constexpr int byte_count = sizeof(Fixed);
 constexpr uint8_t code_of_zero = 0x01;
+
+/// Of bytes from the lowest to the highest.
+UnsignedFixed number_of(const uint8_t* bytes) {
+  std::array<uint8_t, byte_count> in_order;
+  std::copy_n(bytes, byte_count, in_order.begin());
+  if constexpr (std::endian::native == std::endian::big)
+    std::reverse(in_order.begin(), in_order.end());
+  return std::bit_cast<UnsignedFixed>(in_order);
+}
 
 uint8_t byte_of(Fixed value, int index) { return uint8_t(value >> (8 * index)); }
 /// What all bytes behind `last` must be for the sign to come out right.
@@ -36,18 +47,53 @@ void put_sum(BinaryWriter& writer, Fixed value) {
   writer.put_bytes(bytes.data(), size_t(2 + last - first));
 }
 
-Fixed get_sum(BinaryReader& reader) {
-  const auto code = reader.get<uint8_t>();
-  if (code == code_of_zero) return 0;
+/// Of a code and what follows it.
+constexpr size_t most_packed = 1 + byte_count;
+
+struct UnpackedSum {
+  Fixed value = 0;
+  size_t bytes = 1;  ///< that it took; 0: they are no sum
+};
+
+/// Reads `most_packed` bytes, whether the sum takes them or not.
+UnpackedSum unpacked_sum(const uint8_t* packed) {
+  const uint8_t code = packed[0];
+  if (code == code_of_zero) return {};
   const int first = code & 15, last = code >> 4;
-  if (first > last) reader.damaged("a sum in it is not valid");
-  const auto bytes = reader.get_bytes(uint64_t(last - first + 1));
-  UnsignedFixed value = bytes.back() < 0x80 ? 0 : ~UnsignedFixed(0);
-  for (auto byte = bytes.rbegin(); byte != bytes.rend(); ++byte) value = value << 8 | *byte;
-  value <<= 8 * first;
+  if (first > last) return {0, 0};
+  // Bytes that are not its own leave at the top, and the sign comes in from there.
+  const int foreign_bits = 8 * (byte_count - 1 - (last - first));
+  const auto value = Fixed(number_of(packed + 1) << foreign_bits) >> foreign_bits;
+  const UnsignedFixed in_place = UnsignedFixed(value) << (8 * first);
   // The one number that has no opposite.
-  if (value == UnsignedFixed(1) << 127) reader.damaged("a sum in it is not valid");
-  return Fixed(value);
+  if (in_place == UnsignedFixed(1) << 127) return {0, 0};
+  return {Fixed(in_place), size_t(2 + last - first)};
+}
+
+/// As many as whole ones are surely among the bytes.
+struct UnpackedSums {
+  size_t count = 0, bytes = 0;
+  bool are_valid = true;
+};
+
+UnpackedSums unpack_sums(std::span<const uint8_t> packed, std::span<Fixed> sums) {
+  UnpackedSums result;
+  while (result.count < sums.size() && result.bytes + most_packed <= packed.size()) {
+    const UnpackedSum sum = unpacked_sum(packed.data() + result.bytes);
+    if (sum.bytes == 0) return {0, 0, false};
+    sums[result.count++] = sum.value;
+    result.bytes += sum.bytes;
+  }
+  return result;
+}
+
+/// Of bytes that are too few for unpack_sums().
+UnpackedSums unpack_last_sum(std::span<const uint8_t> packed, Fixed& sum) {
+  std::array<uint8_t, most_packed> padded{};
+  std::copy(packed.begin(), packed.end(), padded.begin());
+  const UnpackedSum last = unpacked_sum(padded.data());
+  sum = last.value;
+  return {1, last.bytes, last.bytes > 0 && last.bytes <= packed.size()};
 }
 
 }  // namespace
@@ -66,7 +112,15 @@ void put_sums(BinaryWriter& writer, std::span<const Fixed> sums) {
 std::vector<Fixed> get_sums(BinaryReader& reader, uint64_t count) {
   reader.need(count, 1);
   std::vector<Fixed> sums(count);
-  for (Fixed& sum : sums) sum = get_sum(reader);
+  for (std::span<Fixed> rest = sums; !rest.empty();) {
+    const std::span<const uint8_t> packed = reader.bytes_ahead(most_packed);
+    const UnpackedSums unpacked = packed.size() < most_packed
+                                      ? unpack_last_sum(packed, rest.front())
+                                      : unpack_sums(packed, rest);
+    if (!unpacked.are_valid) reader.damaged("a sum in it is not valid");
+    reader.skip(unpacked.bytes);
+    rest = rest.subspan(unpacked.count);
+  }
   return sums;
 }
 

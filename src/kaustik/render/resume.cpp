@@ -46,13 +46,21 @@ SessionSettings settings_to_go_on(const Checkpoint& checkpoint) {
   settings.first_pass = record.plan.first_pass;
   settings.error = record.plan.error;
   if (record.plan.passes > 0) settings.passes = record.plan.passes;
-  if (!record.plan.seconds) return settings;
-  const double left_s = *record.plan.seconds - record.seconds;
-  if (left_s > 0)
-    settings.seconds = left_s;
-  else
-    settings.passes = checkpoint.film.passes().ranges().back().end - settings.first_pass;
+  keep_to_time(settings, record.plan.seconds, checkpoint);
   return settings;
+}
+
+void keep_to_time(SessionSettings& settings, std::optional<double> seconds,
+                  const Checkpoint& checkpoint) {
+  if (!seconds) return;
+  const double left_s = *seconds - checkpoint.record.seconds;
+  if (left_s > 0) {
+    settings.seconds = left_s;
+    return;
+  }
+  settings.seconds.reset();
+  settings.samples_per_pass = checkpoint.record.recipe.samples_per_pass;
+  settings.passes = checkpoint.film.passes().ranges().back().end - settings.first_pass;
 }
 
 void check_same_scene(const PreparedScene& prepared, const Checkpoint& checkpoint,

@@ -1,5 +1,6 @@
 #pragma once
 // Going on with a checkpoint.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,11 @@ namespace kaustik {
 
 /// As far as the render was told to go when it began; what is left of its time.
 SessionSettings settings_to_go_on(const Checkpoint& checkpoint);
+
+/// Leaves of this time, which is for all sessions together, what those of the checkpoint have not
+/// used. If that is nothing: no pass but those that are there.
+void keep_to_time(SessionSettings& settings, std::optional<double> seconds,
+                  const Checkpoint& checkpoint);
 
 /// Throws Error(input), at `path`, if the scene, prepared with its digest, is not the one of the
 /// checkpoint's passes: new ones would not belong to them.
