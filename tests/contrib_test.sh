@@ -44,7 +44,8 @@ cat >"$work/scontrol" <<'STUB'
 echo "$*" >>"$(dirname "$0")/requeued"
 STUB
 chmod +x "$work/srun" "$work/scontrol"
-cp "$root/scenes/cornell_box/cornell_box.xml" "$work/scene.xml"
+cp -r "$root/scenes/cornell_box/." "$work"
+mv "$work/cornell_box.xml" "$work/scene.xml"
 cd "$work"
 part() {
   PATH=$work:$PATH KAUSTIK=$kaustik KAUSTIK_SCENE=scene.xml KAUSTIK_FOLDER=. KAUSTIK_PARTS=$1 SLURM_CPUS_PER_TASK=1 \
@@ -57,7 +58,7 @@ for ((i = 0; i < 600; ++i)); do
   [[ -s part_2.kpt ]] && break
   sleep 0.1
 done
-kill -TERM "$(<step)"
+kill -TERM "$(<step)" || { cat log >&2; exit 1; }
 code=0
 wait "$job" || code=$?
 [[ $code -eq 75 ]] || { fail "part.sbatch ended with $code"; cat log >&2; }

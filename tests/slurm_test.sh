@@ -81,7 +81,8 @@ pids+=($!)
 is_idle() { [[ $(sinfo -h -p low -o %T 2>/dev/null) == idle ]]; }
 until_true 60 "a node that is idle" is_idle
 
-cp "$root/scenes/cornell_box/cornell_box.xml" "$work/scene.xml"
+cp -r "$root/scenes/cornell_box/." "$work"
+mv "$work/cornell_box.xml" "$work/scene.xml"
 cd "$work"
 picture=(--integrator path --set film.width=64 --set film.height=64 --passes 60 --spp "${SPP:-60000}" --threads 1
   --reproducible)

@@ -334,7 +334,7 @@ TEST_F(CheckpointFile, ForeignFilesAreRefused) {
   // Its lessons are laid out otherwise.
   other[12] = 7;
   write(other);
-  expect_refused("has version 7, this program reads version 16");
+  expect_refused("has version 7, this program reads version 17");
 }
 
 TEST_F(CheckpointFile, TruncatedAndDamagedFilesAreRefused) {
