@@ -14,6 +14,8 @@ work=$(mktemp -d)
 pids=()
 end() {
   [[ ${1:-0} -eq 0 ]] || { tail -n 20 "$work"/*.log "$work"/scene.parts/log/* 2>/dev/null || true; } >&2
+  # Else jobs would outlive their Slurm.
+  if [[ -n $(squeue -h 2>/dev/null) ]]; then scancel --user="$(id -un)" && sleep 3; fi
   for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
   wait
   rm -rf "$work"
@@ -84,7 +86,7 @@ until_true 60 "a node that is idle" is_idle
 cp -r "$root/scenes/cornell_box/." "$work"
 mv "$work/cornell_box.xml" "$work/scene.xml"
 cd "$work"
-picture=(--integrator path --set film.width=64 --set film.height=64 --passes 60 --spp "${SPP:-60000}" --threads 1
+picture=(--integrator path --set film.width=64 --set film.height=64 --passes 60 --spp "${SPP:-15000}" --threads 1
   --reproducible)
 export KAUSTIK=$kaustik KAUSTIK_SBATCH="--partition=low --cpus-per-task=1"
 "$root/contrib/slurm/submit.sh" scene.xml 6 "${picture[@]}" --every 1s
@@ -98,7 +100,7 @@ scontrol requeue "${array}_1"
 until_true 200 "a checkpoint of part 3" has_checkpoint 3
 sbatch --partition=high --cpus-per-task="$(nproc)" --output=high.log --wrap="sleep 2" --wait >/dev/null
 is_done() { [[ -z $(squeue -h 2>/dev/null) ]]; }
-until_true 400 "all jobs" is_done
+until_true 900 "all jobs" is_done
 
 [[ -s scene.parts/picture.exr ]] || fail "there is no picture"
 went_on=$(grep -l "goes on: passes" scene.parts/log/part_*.txt | wc -l)

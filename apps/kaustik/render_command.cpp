@@ -242,14 +242,16 @@ void add_render(CLI::App& program) {
   auto* force = command->add_flag("--force", options->force, "Replace an existing checkpoint")
                     ->needs(checkpoint);
   command
-      ->add_flag("--resume-if-there", options->resume_if_there,
-                 "Go on with the checkpoint if it exists; for commands that are repeated until they "
-                 "are done")
+      ->add_flag(
+          "--resume-if-there", options->resume_if_there,
+          "Go on with the checkpoint if it exists; for commands that are repeated until they "
+          "are done")
       ->needs(checkpoint)
       ->excludes(force);
   command
-      ->add_option("--part", options->part,
-                   "Render part I of N of the passes that --passes or --spp name, for kaustik merge")
+      ->add_option(
+          "--part", options->part,
+          "Render part I of N of the passes that --passes or --spp name, for kaustik merge")
       ->type_name("I/N")
       ->needs(checkpoint)
       ->excludes(error);
