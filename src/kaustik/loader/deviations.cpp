@@ -26,16 +26,4 @@ void Deviations::finish(Description& description, bool is_strict) {
   known_.clear();
 }
 
-std::string_view name_of(DeviationKind kind) {
-  switch (kind) {
-    case DeviationKind::approximated:
-      return "approximated";
-    case DeviationKind::ignored:
-      return "ignored";
-    case DeviationKind::missing:
-      return "missing";
-  }
-  return "";
-}
-
 }  // namespace kaustik

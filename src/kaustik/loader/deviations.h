@@ -37,7 +37,4 @@ class Deviations {
   std::set<std::tuple<DeviationKind, std::string, std::string>> known_;
 };
 
-/// "approximated", "ignored", "missing".
-std::string_view name_of(DeviationKind kind);
-
 }  // namespace kaustik

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kaustik/base/parameters.h"
@@ -41,6 +42,9 @@ enum class DeviationKind {
   ignored,       ///< it is left out
   missing,       ///< a file is not there; a stand-in is seen in the picture
 };
+
+/// "approximated", "ignored", "missing".
+std::string_view name_of(DeviationKind kind);
 
 /// Something in a file that is not rendered as it is written.
 struct Deviation {
