@@ -131,6 +131,7 @@ BEGIN {
   sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["live"]; sees_all["view"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
 
+  allow_folder("loader/pbrt", "")
   allow_folder("photon/kd_tree", "")
   allow_folder("photon/emission", "")
   allow_folder("photon/coverage", "")

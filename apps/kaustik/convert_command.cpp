@@ -13,6 +13,7 @@
 #include "kaustik/loader/mitsuba3_terms.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
+#include "kaustik/scene/deviation_report.h"
 #include "kaustik/scene/named_in.h"
 #include "kaustik/scene/picture_as_exr.h"
 #include "kaustik/scene/shape_as_ply.h"
@@ -103,6 +104,7 @@ void convert(const ConvertOptions& options) {
   for (const FileToWrite& file : scene.files) writes(file.path);
   // Refuses what XML cannot hold, before anything is written.
   mitsuba_xml(scene.description, description_types(), folder, scene.version);
+  for (const std::string& line : deviation_lines(description)) warn(line);
   for (const std::string& remark : scene.remarks) warn(remark);
   NewFiles written;
   for (const FileToWrite& file : scene.files) written.write(file.path, contents_of(file));

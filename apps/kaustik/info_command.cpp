@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "kaustik/render/scene_warnings.h"
+#include "kaustik/scene/deviation_report.h"
 #include "kaustik/scene/overrides.h"
 #include "kaustik/scene/scene_report.h"
 #include "render_job.h"
@@ -10,6 +11,13 @@
 
 namespace kaustik::app {
 namespace {
+
+/// Where the reader could not take the file as it is written, and how often in all.
+void tell_deviations(const Description& description) {
+  for (const std::string& line : deviation_lines(description)) fmt::print("{}\n", line);
+  if (const std::string counts = deviation_counts(description); !counts.empty())
+    fmt::print("{}\n", counts);
+}
 
 void info(const std::string& path, const std::vector<std::string>& definitions, bool is_strict,
           const std::string& camera, const BuildOptions& build) {
@@ -24,6 +32,7 @@ void info(const std::string& path, const std::vector<std::string>& definitions, 
     report.warnings.push_back(coarse);
   for (const std::string& line : report.lines) fmt::print("{}\n", line);
   for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
+  tell_deviations(description);
 }
 
 }  // namespace

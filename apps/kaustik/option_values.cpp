@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "kaustik/loader/scene_format.h"
+
 namespace kaustik::app {
 namespace {
 
@@ -50,7 +52,14 @@ OptionValues values_of(const CLI::Option* option) {
 }
 
 const std::vector<std::string>& scene_extensions() {
-  static const std::vector<std::string> extensions{"xml", "xml.gz"};
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> all;
+    for (const SceneFormat& format : scene_formats())
+      for (const std::string_view extension : format.extensions)
+        for (const char* const packing : {"", ".gz"})
+          all.push_back(std::string(extension.substr(1)) + packing);
+    return all;
+  }();
   return extensions;
 }
 

@@ -7,16 +7,29 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/integrator/registry.h"
+#include "kaustik/loader/scene_format.h"
 #include "numbers.h"
 #include "option_values.h"
 #include "program_files.h"
 
 namespace kaustik::app {
+namespace {
+
+/// "Mitsuba XML, …".
+std::string format_names() {
+  std::string names;
+  for (const SceneFormat& format : scene_formats())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+  return names;
+}
+
+}  // namespace
 
 void add_scene(CLI::App& command, std::string& scene) {
   CLI::Option* option = command.add_option(
       "scene", scene,
-      "Scene file (Mitsuba XML), or scenes/… of the installation; - for standard input");
+      fmt::format("Scene file ({}), or scenes/… of the installation; - for standard input",
+                  format_names()));
   takes_files(option->required(), scene_extensions());
   option->transform([](const std::string& path) { return scene_file(path); });
 }

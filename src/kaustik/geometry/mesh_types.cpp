@@ -148,6 +148,7 @@ std::optional<MeshFile> read_mesh_file(const Arguments& arguments) {
   if (type == "ply") return read_ply(arguments.text("filename"));
   if (type == "serialized")
     return read_serialized(arguments.text("filename"), uint64_t(arguments.integer("shape_index")));
+  if (type == "mesh") return MeshFile{mesh_of_buffers(arguments), {}};
   return std::nullopt;
 }
 
@@ -171,8 +172,7 @@ MeshFile unplaced_mesh(const Arguments& arguments) {
   if (options.flip_tex_coords)
     for (Vec2f& uv : mesh.uvs) uv.y = 1.0f - uv.y;
   options.flip_normals = options.flip_tex_coords = false;
-  if (options.max_smooth_angle)
-    mesh = prepare_mesh(std::move(mesh), options, place_in(arguments.text("filename")));
+  if (options.max_smooth_angle) mesh = prepare_mesh(std::move(mesh), options, arguments.place());
   return file;
 }
 

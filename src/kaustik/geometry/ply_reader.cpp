@@ -42,7 +42,7 @@ class PlyReader {
  public:
   explicit PlyReader(const std::string& path)
       : path_(path),
-        file_(path),
+        file_(InputFile::unpacked(path)),
         window_(file_),
         header_(read_ply_header(path, window_)),
         line_(is_text() ? header_.lines + 1 : 0),

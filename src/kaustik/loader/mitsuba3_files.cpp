@@ -34,6 +34,9 @@ struct KeyText {
         text += fmt::format("{} ", transform.at(row, column));
     return text;
   }
+  std::string operator()(const std::shared_ptr<const Array>& array) const {
+    return fmt::format("{:x}", array->digest());
+  }
   /// Nothing of the kind makes a difference to a mesh or a picture.
   template <typename Other>
   std::string operator()(const Other&) const {
@@ -85,9 +88,10 @@ void FilesToWrite::use(const std::string& key, const std::shared_ptr<Object>& us
 void FilesToWrite::use_ply(const std::shared_ptr<Object>& shape, const Object& source) {
   const auto* is_flat = value_in<bool>(source, "face_normals");
   const bool is_placed = find_property(source, "max_smooth_angle") && !(is_flat && *is_flat);
-  std::set<std::string_view> names = {"filename",    "shape_index", "material", "flip_tex_coords",
-                                      "scale",       "width",       "height",   "max_smooth_angle",
-                                      "face_normals"};
+  std::set<std::string_view> names = {
+      "filename", "shape_index",      "material",     "flip_tex_coords", "scale",     "width",
+      "height",   "max_smooth_angle", "face_normals", "positions",       "faces",     "normals",
+      "uv",       "vertex_color",     "face_color",   "vertex_value",    "face_value"};
   if (is_placed) names.insert("to_world");
   shape->type = "ply";
   if (source.type == "heightfield") {
@@ -105,8 +109,8 @@ void FilesToWrite::use_ply(const std::shared_ptr<Object>& shape, const Object& s
 
 void FilesToWrite::use_exr(const std::shared_ptr<Object>& bitmap, const Rgb& factor) {
   const Object source = *bitmap;
-  for (const char* name : {"gamma", "channel"}) remove_property(*bitmap, name);
-  const std::string key = key_of(source, {"filename", "gamma", "channel", "raw"}) +
+  for (const char* name : {"gamma", "channel", "data"}) remove_property(*bitmap, name);
+  const std::string key = key_of(source, {"filename", "data", "gamma", "channel", "raw"}) +
                           fmt::format("{} {} {}", factor.r, factor.g, factor.b);
   use(key, bitmap, source, factor, ".exr");
 }

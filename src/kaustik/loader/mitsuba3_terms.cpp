@@ -108,6 +108,7 @@ class Translator {
   }
 
   static bool needs_exr(const Object& bitmap) {
+    if (find_property(bitmap, "data")) return true;
     const auto gamma = number_in(bitmap, "gamma");
     const auto* channel = value_in<std::string>(bitmap, "channel");
     return value_in<std::string>(bitmap, "filename") &&
@@ -116,7 +117,7 @@ class Translator {
 
   /// Whether Mitsuba 3 would not read the mesh as Kaustik does.
   bool needs_ply(const Object& shape) {
-    if (shape.type == "heightfield") return true;
+    if (shape.type == "heightfield" || shape.type == "mesh") return true;
     const bool is_obj = shape.type == "obj", is_serialized = shape.type == "serialized";
     if ((!is_obj && !is_serialized && shape.type != "ply") ||
         !value_in<std::string>(shape, "filename"))

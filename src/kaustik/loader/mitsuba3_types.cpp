@@ -60,6 +60,7 @@ const std::vector<LackingInMitsuba3>& lacking() {
       {"emitter", "area", "two_sided"},
       {"emitter", "spot", "falloff"},
       {"emitter", "envmap", "gamma"},
+      {"emitter", "envmap", "projection", {"equalarea"}},
       {"emitter", "", "attenuation"},
       {"emitter", "", "shadow_samples"},
       {"emitter", "", "visible"},

@@ -1,0 +1,266 @@
+#include "kaustik/loader/pbrt/media.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kaustik/loader/object_parts.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+/// Samples along x, y and z. Throws Error(input) unless there are as many numbers.
+std::array<size_t, 3> grid_size(const ParameterList& list, const Parameter& samples,
+                                size_t components) {
+  std::array<size_t, 3> size{};
+  const char* const names[] = {"nx", "ny", "nz"};
+  size_t count = components;
+  for (size_t i = 0; i < 3; ++i) {
+    size[i] = size_t(std::clamp(list.integer(names[i], 1), 0, 1 << 20));
+    count = size[i] == 0 || count > samples.number_count() ? 0 : count * size[i];
+  }
+  if (count == 0 || count != samples.number_count())
+    throw Error(ErrorKind::input,
+                fmt::format("{} has {} numbers, and nx, ny, nz ask for others", shown(samples.name),
+                            samples.number_count()),
+                "give one for each cell", samples.place);
+  return size;
+}
+
+/// In small letters; see Jensen et al. 2001 and Narasimhan et al. 2006.
+constexpr std::string_view substances[] = {"apple",
+                                           "chicken1",
+                                           "chicken2",
+                                           "cream",
+                                           "ketchup",
+                                           "marble",
+                                           "potato",
+                                           "skimmilk",
+                                           "skin1",
+                                           "skin2",
+                                           "spectralon",
+                                           "wholemilk",
+                                           "lowfat milk",
+                                           "reduced milk",
+                                           "regular milk",
+                                           "espresso",
+                                           "mint mocha coffee",
+                                           "lowfat soy milk",
+                                           "regular soy milk",
+                                           "lowfat chocolate milk",
+                                           "regular chocolate milk",
+                                           "coke",
+                                           "pepsi",
+                                           "sprite",
+                                           "gatorade",
+                                           "chardonnay",
+                                           "white zinfandel",
+                                           "merlot",
+                                           "budweiser beer",
+                                           "coors light beer",
+                                           "clorox",
+                                           "apple juice",
+                                           "cranberry juice",
+                                           "grape juice",
+                                           "ruby grapefruit juice",
+                                           "white grapefruit juice",
+                                           "shampoo",
+                                           "strawberry shampoo",
+                                           "head & shoulders shampoo",
+                                           "lemon tea powder",
+                                           "orange juice powder",
+                                           "pink lemonade powder",
+                                           "cappuccino powder",
+                                           "salt powder",
+                                           "sugar powder",
+                                           "suisse mocha powder",
+                                           "pacific ocean surface water"};
+
+Rgb sum(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+
+double share(double part, double whole) { return whole > 0 ? std::min(part / whole, 1.0) : 0; }
+
+Rgb albedo_of(const Rgb& scattering, const Rgb& extinction) {
+  return {share(scattering.r, extinction.r), share(scattering.g, extinction.g),
+          share(scattering.b, extinction.b)};
+}
+
+}  // namespace
+
+std::string substance_named(const std::string& name) {
+  const std::string_view wanted =
+      is_same_name(name, "orange powder") ? "orange juice powder" : name;
+  for (const std::string_view known : substances)
+    if (is_same_name(known, wanted)) return std::string(known);
+  return {};
+}
+
+void Media::define(const std::string& name, MediumDefinition definition) {
+  const auto [entry, is_new] = entries_.try_emplace(name);
+  if (!is_new)
+    deviations_.approximated(definition.owner.object, "it is defined twice: the first one counts",
+                             definition.parameters.place());
+  else
+    entry->second.definition = std::move(definition);
+}
+
+std::shared_ptr<Object> Media::named(const std::string& name, const Place& place) {
+  if (name.empty()) return nullptr;
+  const auto known = entries_.find(name);
+  if (known == entries_.end()) {
+    deviations_.missing(fmt::format("medium {}", shown(name)),
+                        "it is not defined: space is empty there", place);
+    return nullptr;
+  }
+  Entry& entry = known->second;
+  if (entry.is_made) return entry.made;
+  entry.is_made = true;
+  entry.made = make(entry.definition);
+  if (entry.made) entry.made->id = name;
+  entry.definition.parameters.visit_unused([&](const Parameter& parameter) {
+    deviations_.ignored(entry.definition.owner.object,
+                        fmt::format("parameter {} has no effect", shown(parameter.name)),
+                        parameter.place);
+  });
+  return entry.made;
+}
+
+std::shared_ptr<Object> Media::make(const MediumDefinition& definition) {
+  const ParameterList& list = definition.parameters;
+  const bool glows = list.has("Le") || list.has("temperature") || list.has("temperaturename");
+  list.accept({"Lescale", "Legrid", "temperaturescale", "temperatureoffset", "temperaturecutoff"});
+  if (glows)
+    deviations_.ignored(definition.owner.object, "it does not glow: media emit no light here",
+                        list.place());
+  if (definition.type == "homogeneous") return make_homogeneous(definition);
+  if (definition.type == "uniformgrid") return make_grid(definition);
+  if (definition.type == "rgbgrid") return make_colour_grid(definition);
+  const bool is_nanovdb = definition.type == "nanovdb";
+  const std::string what =
+      is_nanovdb
+          ? std::string("files of NanoVDB are not read: space is empty there")
+          : fmt::format("there is no medium {}: space is empty there", shown(definition.type));
+  if (is_nanovdb)
+    deviations_.missing(definition.owner.object, what, list.place());
+  else
+    deviations_.ignored(definition.owner.object, what, list.place());
+  list.accept({"filename", "gridname", "density", "wispiness", "frequency", "sigma_a", "sigma_s",
+               "scale", "g", "p0", "p1", "preset"});
+  return nullptr;
+}
+
+Rgb Media::coefficient(const MediumDefinition& definition, const char* name) {
+  const auto value =
+      spectra_.read(definition.parameters, name, SpectrumUse::coefficient, definition.owner);
+  if (!value) return {1, 1, 1};
+  if (const auto colour = as_colour(*value)) return *colour;
+  const double middle = number_of_index(*value);
+  deviations_.approximated(definition.owner.object,
+                           fmt::format("{} is that of yellow light", shown(name)),
+                           definition.parameters.place_of(name));
+  return {middle, middle, middle};
+}
+
+std::shared_ptr<Object> Media::with_phase(std::shared_ptr<Object> medium,
+                                          const MediumDefinition& definition) {
+  const double g = std::clamp(definition.parameters.number("g", 0), -0.999, 0.999);
+  if (g == 0) return medium;
+  auto phase = described("phase", "hg", medium->place);
+  set(*phase, "g", g);
+  hold(*medium, "", phase);
+  return medium;
+}
+
+std::shared_ptr<Object> Media::make_homogeneous(const MediumDefinition& definition) {
+  const ParameterList& list = definition.parameters;
+  auto medium = described("medium", "homogeneous", list.place());
+  const std::string preset = list.text("preset"), substance = substance_named(preset);
+  if (!preset.empty() && substance.empty())
+    deviations_.missing(definition.owner.object,
+                        fmt::format("there is no substance {}", shown(preset)),
+                        list.place_of("preset"));
+  if (!substance.empty()) {
+    list.accept({"sigma_a", "sigma_s"});
+    set(*medium, "material", substance);
+  } else {
+    for (const char* const name : {"sigma_a", "sigma_s"})
+      set(*medium, name,
+          spectra_.read(list, name, SpectrumUse::coefficient, definition.owner).value_or(1.0));
+  }
+  set(*medium, "scale", std::max(list.number("scale", 1), 0.0));
+  return with_phase(medium, definition);
+}
+
+std::shared_ptr<Object> Media::grid_volume(const MediumDefinition& definition,
+                                           std::vector<size_t> extents,
+                                           std::vector<float> samples) {
+  const ParameterList& list = definition.parameters;
+  files_.spend(samples.size() * sizeof(float), list.place());
+  auto volume = described("volume", "gridvolume", list.place());
+  set(*volume, "data", Value(Array::of<float>(std::move(extents), std::move(samples))));
+  const Vec3d low = list.point("p0").value_or(Vec3d(0, 0, 0));
+  const Vec3d high = list.point("p1").value_or(Vec3d(1, 1, 1));
+  const Vec3d size = high - low;
+  if (!(size.x > 0 && size.y > 0 && size.z > 0))
+    throw Error(ErrorKind::input, "the grid's box has no volume", "let p1 lie beyond p0 in x, y, z",
+                list.place_of("p1"));
+  set(*volume, "to_world",
+      definition.to_world * Transform::translate(low) * Transform::scale(size));
+  return volume;
+}
+
+std::shared_ptr<Object> Media::make_grid(const MediumDefinition& definition) {
+  const ParameterList& list = definition.parameters;
+  const Parameter* density = list.find("density", {"float"});
+  if (!density)
+    throw Error(ErrorKind::input, fmt::format("{} has no density", definition.owner.object),
+                "give it \"float density\" [ … ]", list.place());
+  const std::array<size_t, 3> size = grid_size(list, *density, 1);
+  const Rgb scattering = coefficient(definition, "sigma_s");
+  const Rgb extinction = sum(coefficient(definition, "sigma_a"), scattering);
+  const bool is_grey = extinction.r == extinction.g && extinction.r == extinction.b;
+  const size_t components = is_grey ? 1 : 3;
+  std::vector<float> samples;
+  samples.reserve(density->number_count() * components);
+  const double parts[3] = {extinction.r, extinction.g, extinction.b};
+  for (const double value : density->numbers)
+    for (size_t i = 0; i < components; ++i)
+      samples.push_back(float(std::max(value, 0.0) * parts[i]));
+  std::vector<size_t> extents = {size[2], size[1], size[0]};
+  if (!is_grey) extents.push_back(3);
+  auto medium = described("medium", "heterogeneous", list.place());
+  set(*medium, "albedo", albedo_of(scattering, extinction));
+  set(*medium, "scale", std::max(list.number("scale", 1), 0.0));
+  hold(*medium, "sigma_t", grid_volume(definition, std::move(extents), std::move(samples)));
+  return with_phase(medium, definition);
+}
+
+std::shared_ptr<Object> Media::make_colour_grid(const MediumDefinition& definition) {
+  const ParameterList& list = definition.parameters;
+  const Parameter *absorption = list.find("sigma_a", {"rgb"}),
+                  *scattering = list.find("sigma_s", {"rgb"});
+  if (!absorption && !scattering)
+    throw Error(ErrorKind::input, fmt::format("{} has no coefficients", definition.owner.object),
+                "give it \"rgb sigma_a\" and \"rgb sigma_s\"", list.place());
+  const std::array<size_t, 3> size = grid_size(list, *(absorption ? absorption : scattering), 3);
+  if (scattering) grid_size(list, *scattering, 3);
+  std::vector<float> extinctions, albedos;
+  const size_t count = 3 * size[0] * size[1] * size[2];
+  extinctions.reserve(count);
+  albedos.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    // What is not given is 1, as pbrt has it.
+    const double a = absorption ? std::max(absorption->numbers[i], 0.0) : 1.0;
+    const double s = scattering ? std::max(scattering->numbers[i], 0.0) : 1.0;
+    extinctions.push_back(float(a + s));
+    albedos.push_back(float(share(s, a + s)));
+  }
+  const std::vector<size_t> extents = {size[2], size[1], size[0], 3};
+  auto medium = described("medium", "heterogeneous", list.place());
+  set(*medium, "scale", std::max(list.number("scale", 1), 0.0));
+  hold(*medium, "sigma_t", grid_volume(definition, extents, std::move(extinctions)));
+  hold(*medium, "albedo", grid_volume(definition, extents, std::move(albedos)));
+  return with_phase(medium, definition);
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,54 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+
+#include "kaustik/base/transform.h"
+#include "kaustik/loader/pbrt/described.h"
+#include "kaustik/loader/pbrt/spectra.h"
+
+namespace kaustik::pbrt {
+
+/// A named medium as a file defines it. It is made when a surface or the camera names it.
+struct MediumDefinition {
+  std::string type;
+  ParameterList parameters;
+  Owner owner;  ///< "medium 'smoke'"
+  Transform to_world;
+};
+
+/// What Kaustik calls a substance that pbrt knows the coefficients of; "": it knows none.
+std::string substance_named(const std::string& name);
+
+class Media {
+ public:
+  Media(SceneFiles& files, Spectra& spectra, Deviations& deviations)
+      : files_(files), spectra_(spectra), deviations_(deviations) {}
+
+  void define(const std::string& name, MediumDefinition definition);
+  /// Null for "", for a name that nothing has (which is told), and for what Kaustik can't render.
+  std::shared_ptr<Object> named(const std::string& name, const Place& place);
+
+ private:
+  struct Entry {
+    MediumDefinition definition;
+    std::shared_ptr<Object> made;
+    bool is_made = false;
+  };
+  std::shared_ptr<Object> make(const MediumDefinition& definition);
+  std::shared_ptr<Object> make_homogeneous(const MediumDefinition& definition);
+  std::shared_ptr<Object> make_grid(const MediumDefinition& definition);
+  std::shared_ptr<Object> make_colour_grid(const MediumDefinition& definition);
+  std::shared_ptr<Object> with_phase(std::shared_ptr<Object> medium,
+                                     const MediumDefinition& definition);
+  Rgb coefficient(const MediumDefinition& definition, const char* name);
+  std::shared_ptr<Object> grid_volume(const MediumDefinition& definition,
+                                      std::vector<size_t> extents, std::vector<float> samples);
+
+  SceneFiles& files_;
+  Spectra& spectra_;
+  Deviations& deviations_;
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,123 @@
+// Spheres, cylinders and disks; parts of them as meshes.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "kaustik/loader/pbrt/shapes.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+constexpr double full_turn = 2 * std::numbers::pi;
+constexpr int steps_around = 96, steps_along = 48;
+
+double turn_of(const ShapeTools& tools) {
+  return std::clamp(tools.list.number("phimax", 360), 0.01, 360.0) / 360 * full_turn;
+}
+
+double radius_of(const ShapeTools& tools) {
+  const double radius = tools.list.number("radius", 1);
+  if (radius > 0) return radius;
+  throw Error(ErrorKind::input, "the radius is not above zero", "give one above zero",
+              tools.list.place_of("radius"));
+}
+
+/// Points and normals over u and v from 0 to 1; the front is where u × v points.
+struct SurfacePart {
+  std::function<Vec3d(double u, double v)> point, normal;
+  int along_u = steps_around, along_v = steps_along;
+};
+
+std::shared_ptr<Object> meshed(const ShapeTools& tools, const SurfacePart& part) {
+  MeshParts mesh;
+  const auto put = [](std::vector<float>& numbers, const Vec3d& v) {
+    numbers.insert(numbers.end(), {float(v.x), float(v.y), float(v.z)});
+  };
+  for (int j = 0; j <= part.along_v; ++j)
+    for (int i = 0; i <= part.along_u; ++i) {
+      const double u = double(i) / part.along_u, v = double(j) / part.along_v;
+      put(mesh.positions, part.point(u, v));
+      put(mesh.normals, part.normal(u, v));
+      mesh.uv.insert(mesh.uv.end(), {float(u), float(v)});
+    }
+  for (int32_t j = 0; j < part.along_v; ++j)
+    for (int32_t i = 0; i < part.along_u; ++i) {
+      const int32_t a = j * (part.along_u + 1) + i, b = a + 1, c = a + part.along_u + 2, d = c - 1;
+      mesh.faces.insert(mesh.faces.end(), {a, b, c, a, c, d});
+    }
+  tools.files.spend(mesh.bytes(), tools.place());
+  return placed(shape_of(std::move(mesh), tools.place()), tools);
+}
+
+int steps_for(double turn) {
+  return std::clamp(int(std::ceil(steps_around * turn / full_turn)), 3, steps_around);
+}
+
+}  // namespace
+
+std::shared_ptr<Object> make_sphere(const ShapeTools& tools) {
+  const double radius = radius_of(tools), turn = turn_of(tools);
+  double low = tools.list.number("zmin", -radius), high = tools.list.number("zmax", radius);
+  if (low > high) std::swap(low, high);
+  low = std::clamp(low, -radius, radius);
+  high = std::clamp(high, -radius, radius);
+  if (turn == full_turn && low == -radius && high == radius) {
+    auto sphere = described("shape", "sphere", tools.place());
+    if (radius != 1) set(*sphere, "radius", radius);
+    // v is 1 at +z here, and 0 in Kaustik's own sphere.
+    if (tools.is_textured) set(*sphere, "to_world", Transform::scale({1, 1, -1}));
+    return placed(sphere, tools);
+  }
+  const double theta_low = std::acos(low / radius), theta_high = std::acos(high / radius);
+  const auto unit = [=](double u, double v) {
+    const double phi = turn * u, theta = theta_low + v * (theta_high - theta_low);
+    return Vec3d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+  };
+  return meshed(tools, {[=](double u, double v) { return unit(u, v) * radius; }, unit,
+                        steps_for(turn), steps_along});
+}
+
+std::shared_ptr<Object> make_cylinder(const ShapeTools& tools) {
+  const double radius = radius_of(tools), turn = turn_of(tools);
+  double low = tools.list.number("zmin", -1), high = tools.list.number("zmax", 1);
+  if (low > high) std::swap(low, high);
+  if (!(high > low))
+    throw Error(ErrorKind::input, "the cylinder has no length", "let zmax lie above zmin",
+                tools.list.place_of("zmax"));
+  if (turn == full_turn) {
+    auto cylinder = described("shape", "cylinder", tools.place());
+    set(*cylinder, "radius", radius);
+    set(*cylinder, "p0", Vec3d(0, 0, low));
+    set(*cylinder, "p1", Vec3d(0, 0, high));
+    return placed(cylinder, tools);
+  }
+  const auto unit = [=](double u, double) {
+    return Vec3d(std::cos(turn * u), std::sin(turn * u), 0);
+  };
+  return meshed(tools, {[=](double u, double v) {
+                          return unit(u, v) * radius + Vec3d(0, 0, low + v * (high - low));
+                        },
+                        unit, steps_for(turn), 1});
+}
+
+std::shared_ptr<Object> make_disk(const ShapeTools& tools) {
+  const double radius = radius_of(tools), turn = turn_of(tools);
+  const double inner = std::clamp(tools.list.number("innerradius", 0), 0.0, radius);
+  const double height = tools.list.number("height", 0);
+  if (turn == full_turn && inner == 0 && !tools.is_textured) {
+    auto disk = described("shape", "disk", tools.place());
+    set(*disk, "to_world",
+        Transform::translate({0, 0, height}) * Transform::scale({radius, radius, 1}));
+    return placed(disk, tools);
+  }
+  // v is 0 at the rim.
+  return meshed(tools, {[=](double u, double v) {
+                          const double r = radius + v * (inner - radius);
+                          return Vec3d(r * std::cos(turn * u), r * std::sin(turn * u), height);
+                        },
+                        [](double, double) { return Vec3d(0, 0, 1); }, steps_for(turn), 1});
+}
+
+}  // namespace kaustik::pbrt

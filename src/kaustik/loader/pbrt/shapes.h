@@ -1,0 +1,80 @@
+#pragma once
+// Shapes of pbrt as meshes and bodies.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kaustik/base/transform.h"
+#include "kaustik/loader/pbrt/described.h"
+#include "kaustik/loader/pbrt/parameters.h"
+#include "kaustik/loader/pbrt/scene_files.h"
+
+namespace kaustik::pbrt {
+
+/// A mesh as it is built; three numbers for a vertex, two for its uv.
+struct MeshParts {
+  std::vector<float> positions, normals, uv;
+  std::vector<int32_t> faces;
+
+  size_t bytes() const {
+    return sizeof(float) * (positions.size() + normals.size() + uv.size() + faces.size());
+  }
+};
+
+/// What makers of shapes work with.
+struct ShapeTools {
+  SceneFiles& files;
+  Deviations& deviations;
+  std::string object;  ///< "shape 'sphere'"
+  const ParameterList& list;
+  const Transform& to_world;
+  bool is_flipped = false;   ///< ReverseOrientation
+  bool is_textured = false;  ///< uv may matter
+  /// How many shapes pbrt makes of it, each a lamp of its own: the triangles of a mesh, patches.
+  mutable size_t lamps = 1;
+
+  const Place& place() const { return list.place(); }
+  void approximated(const std::string& what) const {
+    deviations.approximated(object, what, place());
+  }
+};
+
+/// All but curves. Null: it is left out, which is told.
+std::shared_ptr<Object> make_shape(const ShapeTools& tools, const std::string& type);
+
+std::shared_ptr<Object> make_sphere(const ShapeTools& tools);
+std::shared_ptr<Object> make_cylinder(const ShapeTools& tools);
+std::shared_ptr<Object> make_disk(const ShapeTools& tools);
+std::shared_ptr<Object> make_ply(const ShapeTools& tools);
+std::shared_ptr<Object> make_triangles(const ShapeTools& tools);
+std::shared_ptr<Object> make_bilinear_patches(const ShapeTools& tools);
+std::shared_ptr<Object> make_subdivided(const ShapeTools& tools);
+
+/// Appends a curve, in the space of `to_world`, as a tube or a ribbon.
+void add_curve(const ShapeTools& tools, MeshParts& mesh);
+
+/// A shape of the mesh, in the space of `to_world`.
+std::shared_ptr<Object> shape_of(MeshParts mesh, const Place& place);
+/// With to_world, and the side that the file says.
+std::shared_ptr<Object> placed(std::shared_ptr<Object> shape, const ShapeTools& tools);
+
+/// Vertices, three numbers each. Throws Error(input) if there are none.
+std::shared_ptr<std::vector<float>> vertices_of(const ParameterList& list);
+/// Indices in tuples of that size, of so many vertices; without any those of a single face. Throws
+/// Error(input) for what is none.
+std::shared_ptr<std::vector<int32_t>> indices_of(const ParameterList& list, size_t tuple,
+                                                 size_t vertices);
+
+/// In the world; nothing: only the renderer can tell.
+std::optional<double> area_of(const Object& shape);
+/// Whether all of so many equal parts of a mesh's list of faces have the same area, about.
+bool has_even_parts(const Object& shape, size_t parts);
+
+/// Loop's subdivision (Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987), with points
+/// and normals at their limits.
+MeshParts subdivided(const std::vector<float>& positions, const std::vector<int32_t>& faces,
+                     int levels);
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,72 @@
+// Files of pbrt-v3.
+
+#include "kaustik/loader/pbrt/upgrade.h"
+#include "tests/loader/pbrt_support.h"
+
+namespace kaustik {
+namespace {
+
+TEST(PbrtV3, Materials) {
+  const auto type_of = [](const std::string& line) {
+    const Object bsdf = *material(line);
+    return bsdf.type == "twosided" ? only(bsdf, "bsdf").type : bsdf.type;
+  };
+  const Object matte = one_sided(*material("Material \"matte\" \"color Kd\" [.1 .2 .3]"));
+  expect_rgb(value<Rgb>(matte, "reflectance"), .1, .2, .3);
+  EXPECT_EQ(type_of("Material \"plastic\" \"color Kd\" [.1 .2 .3]"), "roughplastic");
+  EXPECT_EQ(type_of("Material \"substrate\" \"float uroughness\" 0 \"float vroughness\" 0"),
+            "plastic");
+  EXPECT_EQ(type_of("Material \"uber\" \"color Ks\" [0 0 0]"), "diffuse");
+  EXPECT_EQ(type_of("Material \"uber\""), "roughplastic");
+  EXPECT_EQ(type_of("Material \"metal\""), "roughconductor");
+  EXPECT_EQ(type_of("Material \"mirror\""), "conductor");
+  EXPECT_EQ(type_of("Material \"translucent\""), "thinphong");
+  EXPECT_EQ(type_of("Material \"disney\" \"color color\" [.1 .2 .3]"), "principled");
+  EXPECT_EQ(type_of("Material \"kdsubsurface\""), "dielectric");
+  const auto glass = material(
+      "Material \"glass\" \"float index\" 1.7 \"color Kr\" [1 1 1] "
+      "\"color Kt\" [.5 1 1]");
+  EXPECT_EQ(value<double>(*glass, "int_ior"), 1.7);
+  expect_rgb(value<Rgb>(*glass, "specular_transmittance"), .5, 1, 1);
+}
+
+TEST(PbrtV3, MixturesNameTheirFirstMaterialByTheAmount) {
+  const auto mix = material(R"(
+    MakeNamedMaterial "a" "string type" "matte"
+    MakeNamedMaterial "b" "string type" "glass"
+    Material "mix" "string namedmaterial1" "a" "string namedmaterial2" "b" "color amount" [.3 .3 .3])");
+  EXPECT_NEAR(value<double>(*mix, "weight"), .3, 1e-12);
+  EXPECT_EQ(mix->children[1].object->type, "twosided");  // of weight 0.3
+}
+
+TEST(PbrtV3, AWholeScene) {
+  const Description scene = parse_scene_of_pbrt(R"(
+    LookAt 0 0 5 0 0 0 0 1 0
+    Camera "perspective" "float fov" [39]
+    Film "image" "integer xresolution" [64] "integer yresolution" [48] "string filename" "a.exr"
+      "float scale" 2
+    Sampler "02sequence" "integer pixelsamples" [16]
+    SurfaceIntegrator "directlighting"
+    PixelFilter "gaussian" "float xwidth" [2] "float ywidth" [2] "float alpha" [2]
+    Accelerator "bvh"
+    WorldBegin
+    AttributeBegin
+      AreaLightSource "area" "color L" [3 3 3] "integer nsamples" [4]
+      Shape "disk"
+    AttributeEnd
+    LightSource "infinite" "color scale" [2 2 2] "color L" [1 1 1]
+    Texture "t" "color" "imagemap" "string filename" "x.tga"
+    Material "matte" "texture Kd" "t"
+    Shape "trianglemesh" "point P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2]
+    WorldEnd)");
+  const Object& film = only(only(scene, "sensor"), "film");
+  EXPECT_EQ(value<double>(film, "iso"), 200);
+  EXPECT_EQ(value<double>(only(film, "rfilter"), "stddev"), .5);  // 1 / √(2 · 2)
+  EXPECT_EQ(value<int64_t>(only(only(scene, "sensor"), "sampler"), "sample_count"), 16);
+  expect_rgb(value<Rgb>(only(scene, "emitter"), "radiance"), 2, 2, 2);
+  EXPECT_EQ(objects_of(scene, "shape").size(), 2u);
+  EXPECT_TRUE(is_missing(scene, "'t'", "not there"));
+}
+
+}  // namespace
+}  // namespace kaustik
