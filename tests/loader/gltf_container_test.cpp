@@ -54,7 +54,7 @@ TEST(GltfContainer, ErrorsNameThePlace) {
       problems_of([] {
         parse_gltf_text("{\"asset\":{\"version\":\"2.0\"},\n\"scenes\":[{\"nodes\":[7]}]}");
       }),
-      "test.gltf:2:22", "node 7 is named", "export");
+      "test.gltf:2:21", "node 7 is named", "export");
   const std::string deep = "{\"asset\":" + std::string(200, '[');
   expect_problem(problems_of([&] { parse_gltf_text(deep); }), "test.gltf:1:109", "100 levels",
                  "export");
@@ -83,7 +83,7 @@ TEST(GltfContainer, WhatABufferLacksIsRefused) {
       "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)" +
                                    one_mesh + "}");
                  }),
-                 "test.gltf:2:38", "bufferView 0 takes 36 bytes", "cut off");
+                 "test.gltf:2:39", "bufferView 0 takes 36 bytes", "cut off");
   expect_problem(problems_of([&] {
                    parse_gltf_text(start + R"("bufferViews":[{"buffer":0,"byteLength":3}],
       "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)" +
@@ -106,9 +106,10 @@ TEST(GltfAccessors, IntegersMayStandForFractions) {
   buffer.add<int16_t>({0, 0, 0, 0, 32767, -32768, 16384, 0, 0, 32767, 0, 0}, "VEC3", 3,
                       ",\"normalized\":true");
   buffer.add<uint8_t>({0, 0, 255, 0, 0, 51, 255, 255}, "VEC2", 2, ",\"normalized\":true");
-  const Object& shape = shape_in(parse_gltf_text(buffer.as_json(
+  const Description description = parse_gltf_text(buffer.as_json(
       R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,
-         "TEXCOORD_0":1},"mode":5}]}])")));
+         "TEXCOORD_0":1},"mode":5}]}])"));
+  const Object& shape = shape_in(description);
   const std::vector<float> positions = floats_of(shape, "positions");
   EXPECT_EQ(positions[4], 1.0f);
   EXPECT_EQ(positions[5], -1.0f);

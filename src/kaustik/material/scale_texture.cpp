@@ -38,7 +38,7 @@ const TypeInfo& scale_info() {
   static const TypeInfo info{
       "texture",
       "scale",
-      "A texture, or a colour, times a factor or another texture.",
+      "A texture, or a colour, times a factor.",
       {optional(color_parameter("value", 1, "What is multiplied; a texture may have any name."))
            .range(0, 1e6)
            .textured(),

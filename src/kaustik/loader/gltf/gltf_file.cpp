@@ -67,6 +67,9 @@ void File::read_container(const std::shared_ptr<const std::vector<uint8_t>>& byt
   if (word_at(all, 4) != 2)
     throw Error(ErrorKind::input, fmt::format("this is .glb of version {}", word_at(all, 4)),
                 "give a file of glTF 2.0", place());
+  if (word_at(all, 8) > all.size())
+    refuse(fmt::format("the .glb file ends too early: it should have {} bytes, and has {}",
+                       word_at(all, 8), all.size()));
   bool has_json = false;
   for (size_t at = header_bytes; at + chunk_header_bytes <= all.size();) {
     const size_t size = word_at(all, at), begin = at + chunk_header_bytes;
