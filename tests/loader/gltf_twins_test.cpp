@@ -59,7 +59,7 @@ TEST(GltfTwins, AreTheSameScenes) {
     for (size_t i = 0; i < of_gltf.size(); ++i) expect_same(*of_gltf[i], *of_xml[i]);
   }
   // Meshes are rectangles there: their materials, lamps and sizes are the same.
-  const auto scene = build_scene(gltf), other = build_scene(xml);
+  const auto built = build_scene(gltf), built_twin = build_scene(xml);
   const auto of_gltf = objects_in(*gltf.scene, "shape"), of_xml = objects_in(*xml.scene, "shape");
   ASSERT_EQ(of_gltf.size(), of_xml.size());
   for (size_t i = 0; i < of_gltf.size(); ++i) {
@@ -67,11 +67,11 @@ TEST(GltfTwins, AreTheSameScenes) {
     ASSERT_EQ(of_gltf[i]->children.size(), of_xml[i]->children.size());
     for (size_t k = 0; k < of_gltf[i]->children.size(); ++k)
       expect_same(*of_gltf[i]->children[k].object, *of_xml[i]->children[k].object);
-    const Bounds3f own = scene->tracer().shape(uint32_t(i)).bounds();
-    const Bounds3f others = other->tracer().shape(uint32_t(i)).bounds();
+    const Bounds3f own = built->tracer().shape(uint32_t(i)).bounds();
+    const Bounds3f others = built_twin->tracer().shape(uint32_t(i)).bounds();
     EXPECT_LT(length(own.min - others.min) + length(own.max - others.max), 1e-5f);
-    EXPECT_NEAR(scene->tracer().shape(uint32_t(i)).area(),
-                other->tracer().shape(uint32_t(i)).area(), 1e-5);
+    EXPECT_NEAR(built->tracer().shape(uint32_t(i)).area(),
+                built_twin->tracer().shape(uint32_t(i)).area(), 1e-5);
   }
   EXPECT_TRUE(gltf.deviations.empty()) << gltf.deviations[0].what;
 }

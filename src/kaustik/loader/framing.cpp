@@ -104,7 +104,7 @@ class BoundsFinder {
 /// From the middle of what is shown to the camera.
 Vec3d direction_to_camera() { return Vec3d(1, 0.6, 1.6).normalized(); }
 
-bool has_child(const Object& object, std::string_view family) {
+bool has_any(const Object& object, std::string_view family) {
   return std::any_of(object.children.begin(), object.children.end(),
                      [&](const Child& child) { return child.object->family == family; });
 }
@@ -150,7 +150,7 @@ Framing::Framing(Description& description, Deviations& deviations,
 
 void Framing::add_missing_camera() {
   Object& scene = *description_.scene;
-  if (has_child(scene, "sensor")) return;
+  if (has_any(scene, "sensor")) return;
   constexpr double margin = 1.05;
   const double half_angle = lens_degrees / 2 * std::numbers::pi / 180;
   const Vec3d origin = middle_ + direction_to_camera() * (margin * radius_ / std::sin(half_angle));
