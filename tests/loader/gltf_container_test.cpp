@@ -35,11 +35,11 @@ TEST(GltfContainer, BinaryFilesAndDataUrisAndFilesAreTheSame) {
 }
 
 TEST(GltfContainer, FilesThatAreCutOffAreRefused) {
-  const std::string whole = triangle_buffer().as_glb(one_mesh);
-  for (size_t size = 4; size < whole.size(); ++size) {
+  const std::string glb = triangle_buffer().as_glb(one_mesh);
+  for (size_t size = 4; size < glb.size(); ++size) {
     SCOPED_TRACE(size);
     const std::vector<Problem> problems =
-        problems_of([&] { parse_gltf_text(whole.substr(0, size)); });
+        problems_of([&] { parse_gltf_text(glb.substr(0, size)); });
     EXPECT_EQ(*problems[0].place.file, "test.gltf");
     EXPECT_FALSE(problems[0].remedy.empty());
   }

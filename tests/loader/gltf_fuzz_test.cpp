@@ -64,10 +64,10 @@ TEST(GltfFuzz, TheWholeSceneIsSound) {
 
 TEST(GltfFuzz, FlippedBytes) {
   std::mt19937 random(1);
-  for (const std::string& whole : {buffer().as_json(rest()), buffer().as_glb(rest())}) {
+  for (const std::string& sound : {buffer().as_json(rest()), buffer().as_glb(rest())}) {
     int refused = 0;
     for (int round = 0; round < rounds; ++round) {
-      std::string text = whole;
+      std::string text = sound;
       for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
         text[random() % text.size()] ^= char(1 + random() % 255);
       if (!survives(text)) ++refused;
@@ -80,14 +80,14 @@ TEST(GltfFuzz, FlippedBytes) {
 /// Such changes keep the JSON sound, and what it says is odd.
 TEST(GltfFuzz, OtherNumbersAndWords) {
   std::mt19937 random(2);
-  const std::string whole = buffer().as_json(rest());
+  const std::string sound = buffer().as_json(rest());
   const std::vector<std::string> others = {"-1",   "1e300", "0",      "99999999999", "null",
                                            "true", "\"\"",  "[]",     "{}",          "0.5",
                                            "[0]",  "5",     "[1,2,3]"};
   const std::string digits = "0123456789";
   int read = 0;
   for (int round = 0; round < rounds; ++round) {
-    std::string text = whole;
+    std::string text = sound;
     for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
       size_t at = random() % text.size();
       at = text.find_first_of(digits, at);
@@ -102,11 +102,11 @@ TEST(GltfFuzz, OtherNumbersAndWords) {
 
 TEST(GltfFuzz, ExchangedPieces) {
   std::mt19937 random(3);
-  const std::string whole = buffer().as_json(rest());
+  const std::string sound = buffer().as_json(rest());
   for (int round = 0; round < rounds; ++round) {
-    std::string text = whole;
+    std::string text = sound;
     for (unsigned pieces = 1 + random() % 3; pieces > 0; --pieces) {
-      const std::string piece = whole.substr(random() % whole.size(), 1 + random() % 60);
+      const std::string piece = sound.substr(random() % sound.size(), 1 + random() % 60);
       text.replace(random() % text.size(), random() % 60, piece);
     }
     survives(text);

@@ -94,8 +94,8 @@ TEST_F(ObjScenes, WhatIsWrongIsTold) {
   expect_problem(problems_of([&] { load_scene(path); }), path, "no faces", "polygons");
   LoadOptions options;
   options.definitions = {{"a", "b"}};
-  const std::string whole = folder_.write("scene.obj", two_parts);
-  EXPECT_NE(problems_of([&] { load_scene(whole, options); })[0].message.find("'a'"),
+  const std::string scene_path = folder_.write("scene.obj", two_parts);
+  EXPECT_NE(problems_of([&] { load_scene(scene_path, options); })[0].message.find("'a'"),
             std::string::npos);
 }
 
