@@ -132,6 +132,7 @@ BEGIN {
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
 
   allow_folder("loader/pbrt", "")
+  allow_folder("loader/gltf", "")
   allow_folder("photon/kd_tree", "")
   allow_folder("photon/emission", "")
   allow_folder("photon/coverage", "")
@@ -162,7 +163,7 @@ BEGIN {
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
   own("Boost", "^boost/", "view", not_in_word "boost::")
-  own("nlohmann-json", "^nlohmann/", "view", not_in_word "nlohmann::")
+  own("nlohmann-json", "^nlohmann/", "loader view", not_in_word "nlohmann::")
   system_headers = "^(sys/[a-z]+|sanitizer/tsan_interface|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll|netdb)\\.h$"
 }
 

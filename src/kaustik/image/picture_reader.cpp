@@ -63,6 +63,13 @@ std::set<int> distinct(const std::array<int, 3>& channels) {
   return result;
 }
 
+/// Of a picture without opacity, as if it had one.
+Image opaque(const Image& image) {
+  Image result(image.width(), image.height(), {"A"});
+  std::ranges::fill(result.channel(0), 1.0f);
+  return result;
+}
+
 /// See PictureWish::gamma.
 float decoded(float value, double gamma) {
   return gamma < 0 ? linear_from_srgb(value) : float(std::pow(double(value), gamma));
@@ -112,7 +119,8 @@ std::vector<Parameter> picture_parameters(const std::string& of_file,
                      "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file" + of_file),
       array_parameter("data", {},
                       "Picture [rows, columns] or [rows, columns, 1, 3 or 4] from a program's "
-                      "buffer, instead of the file: uint8, uint16, float32 or float64.")
+                      "buffer, instead of the file: uint8, uint16, float32 or float64; or the "
+                      "bytes of such a file, uint8.")
           .instead_of("filename")};
   for (Parameter& other : others) rows.push_back(std::move(other));
   return rows;
@@ -160,6 +168,9 @@ bool PictureReader::account(const Use& use) {
 Image PictureReader::chosen(Image image, const Arguments& arguments, const PictureWish& wish) {
   const std::vector<std::string>& names = image.channel_names();
   const auto channels = picture_channels(names, wish.channels);
+  const bool wants_opacity = wish.channels == "a" || wish.channels == "A";
+  if (!channels && wants_opacity && colour_channels(names))
+    return chosen(opaque(image), arguments, wish);
   if (!channels) fail_without(image, arguments, wish.channels);
   const bool is_opacity = names[size_t(std::max((*channels)[0], 0))] == "A";
   const bool is_linear = wish.gamma == 0 || wish.gamma == 1 || is_opacity;

@@ -7,8 +7,10 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
+#include "kaustik/loader/gltf/gltf_scene.h"
 #include "kaustik/loader/gzip.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/obj_scene.h"
 #include "kaustik/loader/pbrt_scene.h"
 
 namespace kaustik {
@@ -73,7 +75,9 @@ std::string head_of(const std::string& path) {
 const std::vector<SceneFormat>& scene_formats() {
   static const std::vector<SceneFormat> formats = {
       {"Mitsuba XML", {".xml"}, is_mitsuba_xml, load_mitsuba_xml, parse_mitsuba_xml},
-      {"pbrt", {".pbrt"}, is_pbrt, load_pbrt, parse_pbrt}};
+      {"pbrt", {".pbrt"}, is_pbrt, load_pbrt, parse_pbrt},
+      {"glTF", {".gltf", ".glb"}, is_gltf, load_gltf, parse_gltf},
+      {"OBJ", {".obj"}, is_obj, load_obj_scene, parse_obj_scene}};
   return formats;
 }
 

@@ -7,15 +7,17 @@ namespace {
 
 class Mask final : public Bsdf {
  public:
-  Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity)
+  Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity,
+       std::optional<float> cutoff)
       : Bsdf({.lobes = nested->traits().lobes | Lobes::delta,
               .transmits = nested->traits().transmits || !opacity->is_constant() ||
-                           opacity->mean().max_lane() < 1,
+                           opacity->mean().max_lane() < cutoff.value_or(1),
               .is_lambertian = nested->traits().is_lambertian,
               .needs = nested->traits().needs | texture_needs({opacity.get()}),
               .size = nested->traits().size + 1}),
         nested_(std::move(nested)),
-        opacity_(std::move(opacity)) {}
+        opacity_(std::move(opacity)),
+        cutoff_(cutoff) {}
 
   const Relief* relief(bool front) const override { return nested_->relief(front); }
 
@@ -62,7 +64,9 @@ class Mask final : public Bsdf {
   }
   /// What a texture says beyond 1 is 1.
   float opacity(const BsdfContext& context) const {
-    return std::clamp(context.scalar_of(*opacity_), 0.0f, 1.0f);
+    const float given = context.scalar_of(*opacity_);
+    if (cutoff_) return given >= *cutoff_ ? 1.0f : 0.0f;
+    return std::clamp(given, 0.0f, 1.0f);
   }
   /// With which sample() asks the nested bsdf: the opacity, but certain where holes don't count.
   float nested_chance(const BsdfContext& context, Lobes lobes) const {
@@ -72,6 +76,7 @@ class Mask final : public Bsdf {
 
   std::shared_ptr<const Bsdf> nested_;
   std::shared_ptr<const Texture> opacity_;
+  std::optional<float> cutoff_;
 };
 
 const TypeInfo& mask_info() {
@@ -82,19 +87,26 @@ const TypeInfo& mask_info() {
       {number_parameter("opacity", 0.5, "Fraction of the surface that exists.")
            .range(0, 1)
            .clamped()
-           .textured()}};
+           .textured(),
+       optional(number_parameter("cutoff", 0.5,
+                                 "What has at least this opacity is there, all else is not: holes "
+                                 "with sharp edges."))
+           .range(0, 1)}};
   return info;
 }
 
 std::shared_ptr<const Bsdf> create_mask(const BsdfInputs& inputs) {
-  return make_mask(with_lobe(inputs.nested.front()), inputs.texture("opacity"));
+  std::optional<float> cutoff;
+  if (inputs.arguments.given("cutoff")) cutoff = float(inputs.arguments.number("cutoff"));
+  return make_mask(with_lobe(inputs.nested.front()), inputs.texture("opacity"), cutoff);
 }
 
 }  // namespace
 
 std::shared_ptr<const Bsdf> make_mask(std::shared_ptr<const Bsdf> nested,
-                                      std::shared_ptr<const Texture> opacity) {
-  return std::make_shared<Mask>(std::move(nested), std::move(opacity));
+                                      std::shared_ptr<const Texture> opacity,
+                                      std::optional<float> cutoff) {
+  return std::make_shared<Mask>(std::move(nested), std::move(opacity), cutoff);
 }
 
 std::shared_ptr<const Bsdf> with_lobe(std::shared_ptr<const Bsdf> bsdf) {

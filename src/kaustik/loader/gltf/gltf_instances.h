@@ -1,0 +1,43 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "kaustik/loader/gltf/gltf_meshes.h"
+
+namespace kaustik::gltf {
+
+/// Puts meshes where nodes have them. What would take much memory as copies becomes a shape group
+/// and its instances.
+class Instances {
+ public:
+  Instances(File& file, Accessors& accessors, Meshes& meshes, Deviations& deviations)
+      : file_(file), accessors_(accessors), meshes_(meshes), deviations_(deviations) {}
+
+  /// How often each mesh is there; to be called first.
+  void count_uses(const std::vector<PlacedNode>& placed);
+
+  /// The shapes of a node, in the world.
+  Meshes::Shapes shapes_of(const PlacedNode& node, const std::vector<PlacedNode>& placed);
+
+  /// Multiplies the emission of all shapes that were made so far.
+  void scale_emission(double factor);
+
+ private:
+  /// Of EXT_mesh_gpu_instancing: from an instance's space to the node's.
+  std::vector<Transform> instance_transforms(const JsonValue& extension);
+  std::shared_ptr<Object> group(size_t mesh, const JsonValue& at);
+  bool is_worth_a_group(size_t mesh, const Meshes::Shapes& shapes) const;
+  void add_placed(const std::shared_ptr<Object>& shape, const Transform& to_world,
+                  Meshes::Shapes& result);
+
+  File& file_;
+  Accessors& accessors_;
+  Meshes& meshes_;
+  Deviations& deviations_;
+  std::map<size_t, size_t> uses_;  ///< by mesh
+  std::map<size_t, std::shared_ptr<Object>> groups_;
+  std::vector<std::shared_ptr<Object>> emitters_;
+};
+
+}  // namespace kaustik::gltf

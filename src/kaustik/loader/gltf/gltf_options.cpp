@@ -1,0 +1,21 @@
+#include "kaustik/loader/gltf/gltf_options.h"
+
+#include "kaustik/base/white_efficacy.h"
+#include "kaustik/loader/reader_definitions.h"
+
+namespace kaustik::gltf {
+
+Options options_of(const LoadOptions& options) {
+  const ReaderDefinitions definitions(options, {{"gltf.glass", {"auto", "solid", "thin"}},
+                                                {"gltf.lamp_efficacy", {}},
+                                                {"gltf.variant", {}}});
+  Options result{.lamp_efficacy = definitions.number("gltf.lamp_efficacy", white_efficacy, 1e-3)};
+  if (const std::string* glass = definitions.find("gltf.glass"))
+    result.glass = *glass == "solid"  ? Glass::solid
+                   : *glass == "thin" ? Glass::thin
+                                      : Glass::automatic;
+  if (const std::string* variant = definitions.find("gltf.variant")) result.variant = *variant;
+  return result;
+}
+
+}  // namespace kaustik::gltf
