@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes docs/scenes.md: a picture of every scene that ships, by the default method and denoised, with its command, time
+"""Makes docs/scenes.md: pictures of scenes that ship, by the default method and denoised, with its command, time
 and error.
 
 Usage: scripts/make_pictures.py [--program build/release/kaustik] [--only SCENE ...]
@@ -70,7 +70,7 @@ def said_of(facts):
 
 def page(made):
     lines = ["# Scenes", "",
-             "Every scene that ships, by the default method `auto`, denoised, made by `scripts/make_pictures.py`. Below each",
+             "Scenes that ship, by the default method `auto`, denoised, made by `scripts/make_pictures.py`. Below each",
              "picture stand its command, the time, and the standard error of its pixels (root mean square) before denoising, as",
              "the program prints it. [Comparisons](comparisons.md) shows `auto` beside other methods at equal time.", ""]
     for name, (_, _, shows) in SCENES.items():

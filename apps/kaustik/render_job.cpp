@@ -23,19 +23,6 @@
 namespace kaustik::app {
 namespace {
 
-/// In how many seconds photonmap is ahead on most scenes that ship (docs/comparisons.md, the first
-/// seconds).
-constexpr double first_seconds = 5;
-
-/// auto knows no irradiance cache: for who has no more time there is better.
-void tell_of_first_seconds(const std::string& integrator, std::optional<double> limit) {
-  if (integrator != "auto" || !limit || *limit > first_seconds) return;
-  note(
-      fmt::format("auto: in {} s or less photonmap is most often less noisy (--integrator "
-                  "photonmap), with a bias that stays",
-                  first_seconds));
-}
-
 /// What there is of a render whose time was over before every pixel had a sample.
 Image first_look(const Job& job) {
   Image image = job.snapshot().value();
@@ -45,13 +32,11 @@ Image first_look(const Job& job) {
   return image;
 }
 
-void tell_of_result(const JobResult& result, const Job& job, const SessionSettings& settings,
-                    bool quiet) {
+void tell_of_result(const JobResult& result, const Job& job, bool quiet) {
   const SessionReport& report = result.report;
   if (!quiet && report.passes > 0) print_errors(job.film());
   for (const std::string& decision : report.decisions)
     if (!quiet) note(decision);
-  if (!quiet) tell_of_first_seconds(result.record.view.integrator, settings.seconds);
   for (const std::string& warning : report.warnings) warn(warning);
 }
 
@@ -161,7 +146,7 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
   watch.stop();
   watch.show_last();
   progress.finish();
-  tell_of_result(result, job, session, display.quiet);
+  tell_of_result(result, job, display.quiet);
   const SessionReport& report = result.report;
   events().result(end_reason(report, session), result_facts(result, job));
   const bool is_first_look = report.passes == 0 && !report.cancelled();

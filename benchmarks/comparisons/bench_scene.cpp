@@ -69,12 +69,8 @@ BenchScene bench_scene(const std::string& name) {
     throw Error(ErrorKind::input, "there is no scene '" + name + "'",
                 "name a folder of scenes/, a file of benchmarks/scenes/, or peer_ and one of "
                 "benchmarks/peer_scenes/");
-  return {name,
-          file,
-          root + "/benchmarks/references/" + name + ".exr",
-          {5, 20, 60},
-          {1, 2},
-          {},
+  return {name,          file,   root + "/benchmarks/references/" + name + ".exr",
+          {5, 20, 60},   {1, 2}, {},
           path_bar(name)};
 }
 

@@ -1,5 +1,5 @@
 // Renders a scene file, or without one a square of buffers below a sky, and prints the mean
-// radiance of the picture with its error. docs/embedding.md explains it.
+// radiance of the picture with its error. docs/guides/cpp.md explains it.
 // Usage: mean_radiance [SCENE.xml [PICTURE]]
 
 #include <kaustik/kaustik.h>

@@ -23,8 +23,6 @@ class Messages : public ProgramTest {
   }
 };
 
-constexpr const char* first_seconds = "photonmap is most often less noisy";
-
 const std::string large_mesh_scene =
     scene_with({"<shape type=\"ply\"><string name=\"filename\" value=\"mesh.ply\"/></shape>"});
 const std::vector<std::string> commands_that_build[] = {
@@ -48,22 +46,6 @@ TEST_F(Messages, AutoTellsWhatItDecided) {
   EXPECT_FALSE(contains(path.err, "auto:")) << path.err;
   const RunResult quiet = render(small_scene(""), {"--passes", "2", "--spp", "2", "-q"});
   EXPECT_EQ(quiet.err, "");
-}
-
-TEST_F(Messages, AutoKnowsWhoIsAheadInTheFirstSeconds) {
-  const auto told = [&](const std::string& integrator, const std::vector<std::string>& limits) {
-    const RunResult result = render(small_scene(integrator), limits);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return contains(result.err, first_seconds);
-  };
-  const auto limits = [](const std::string& time) {
-    return std::vector<std::string>{"--time", time, "--passes", "2", "--spp", "2"};
-  };
-  EXPECT_TRUE(told("", limits("1s")));
-  EXPECT_TRUE(told("<integrator type=\"auto\"/>", limits("5s")));
-  EXPECT_FALSE(told("", limits("6s")));
-  EXPECT_FALSE(told("", {"--passes", "2", "--spp", "2"}));
-  EXPECT_FALSE(told("<integrator type=\"path\"/>", limits("1s")));
 }
 
 TEST_F(Messages, TheErrorIsInTheProgressAndAtTheEnd) {

@@ -70,7 +70,7 @@ TEST_F(SceneWarnings, ScenesWithoutShapes) {
 TEST_F(SceneWarnings, MitsubasNamesAreTold) {
   const std::string said = told(point, "volpathmis");
   EXPECT_TRUE(contains(said, "integrator 'volpathmis' is called path here")) << said;
-  EXPECT_TRUE(contains(run_well({"help", "volpath"}).out, "renderers' name of 'path'"));
+  EXPECT_TRUE(contains(run_well({"help", "volpath"}).out, "renderer's name for 'path'"));
 }
 
 }  // namespace
