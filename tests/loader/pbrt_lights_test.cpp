@@ -178,7 +178,7 @@ TEST(PbrtMedia, HomogeneousOnBothSides) {
   EXPECT_EQ(value<double>(outside, "sigma_s"), 1);
   EXPECT_EQ(value<double>(outside, "scale"), .5);
   EXPECT_EQ(value<double>(only(outside, "phase"), "g"), .4);
-  EXPECT_EQ(value<std::string>(child(*shapes[0], "interior"), "material"), "Wholemilk");
+  EXPECT_EQ(value<std::string>(child(*shapes[0], "interior"), "material"), "wholemilk");
   EXPECT_EQ(&only(only(scene, "sensor"), "medium"), &outside);
   EXPECT_EQ(&only(only(scene, "emitter"), "medium"), &outside);
   EXPECT_EQ(shapes[1]->children.size(), 1u);  // no boundary
@@ -213,7 +213,7 @@ TEST(PbrtMedia, GridsLieInTheirBox) {
                        "\"uniformgrid\" \"integer nx\" 3 \"float density\" [1]\n"
                        "MediumInterface \"a\" \"\" Shape \"sphere\"");
                  }),
-                 "test.pbrt:1:79", "'density' has 1 numbers", "one for each cell");
+                 "test.pbrt:1:75", "'density' has 1 numbers", "one for each cell");
 }
 
 TEST(PbrtMedia, TheOthersAreTold) {

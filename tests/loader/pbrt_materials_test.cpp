@@ -209,7 +209,7 @@ TEST_F(PbrtTextures, RoughnessIsRootedByThePicturesPower) {
       "Material \"conductor\" \"texture roughness\" \"r\"");
   const Object& metal = one_sided(*bsdf_of(scene));
   EXPECT_EQ(metal.type, "roughconductor");
-  const Object& scaled = child(metal, "alpha_u");
+  const Object& scaled = child(metal, "alpha");
   EXPECT_EQ(value<double>(scaled, "scale"), .5);
   EXPECT_EQ(value<double>(child(scaled, "value"), "gamma"), .5);
 }

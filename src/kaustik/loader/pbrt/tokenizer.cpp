@@ -125,7 +125,7 @@ template void Tokenizer::take_numbers(std::vector<double>&);
 template void Tokenizer::take_numbers(std::vector<int32_t>&);
 
 bool parse_number(std::string_view word, double& number) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   const char* const last = word.data() + word.size();
   const auto [end, error] = std::from_chars(word.data(), last, number);
   return error == std::errc() && end == last && std::isfinite(number);
