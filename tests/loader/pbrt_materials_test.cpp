@@ -71,6 +71,12 @@ TEST(PbrtMaterials, DiffuseTransmission) {
   expect_rgb(value<Rgb>(*sheet, "diffuse_reflectance"), .1, .1, .1);
   EXPECT_EQ(value<double>(*sheet, "diffuse_transmittance"), .125);
   EXPECT_EQ(value<double>(*sheet, "specular_reflectance"), 0);
+  // No more than arrives.
+  const auto bright = material(
+      "Material \"diffusetransmission\" \"rgb reflectance\" [.9 .5 .1] \"rgb transmittance\" "
+      "[.6 .5 .1]");
+  expect_rgb(value<Rgb>(*bright, "diffuse_reflectance"), .6, .5 / 1.5, .1 / 1.5);
+  expect_rgb(value<Rgb>(*bright, "diffuse_transmittance"), .4, .5 / 1.5, .1 / 1.5);
 }
 
 TEST(PbrtMaterials, InterfacesAndMixtures) {
