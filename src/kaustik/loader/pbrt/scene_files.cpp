@@ -112,7 +112,8 @@ SourceText SceneFiles::main_file(const std::string& path) {
 }
 
 SourceText SceneFiles::main_text(std::string_view text, const std::string& name) {
-  return keep({text.begin(), text.end()}, name, true);
+  read_bytes_ += text.size();
+  return {std::make_shared<const std::string>(name), text, nullptr, true};
 }
 
 SourceText SceneFiles::included(const fs::path& path, const Place& place) {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -36,7 +37,8 @@ Tokenizer::Tokenizer(const SourceText& source)
     : source_(source),
       at_(source.text.data()),
       end_(source.text.data() + source.text.size()),
-      line_start_(at_) {
+      line_start_(at_),
+      next_close_(at_) {
   if (source.text.starts_with("\xef\xbb\xbf")) line_start_ = at_ += 3;
 }
 
@@ -101,6 +103,14 @@ void Tokenizer::take_numbers(std::vector<Number>& numbers) {
     if (peeked_.kind != TokenKind::word || !parse_number(peeked_.text, number)) return;
     numbers.push_back(converted<Number>(number));
     has_peeked_ = false;
+  }
+  // Of long lists room is made at once: growing would touch all memory twice.
+  constexpr std::ptrdiff_t long_list = 1 << 16, usual_bytes_of_number = 7;
+  if (at_ >= next_close_) {
+    const void* const close = std::memchr(at_, ']', size_t(end_ - at_));
+    next_close_ = close ? static_cast<const char*>(close) : end_;
+    if (close && next_close_ - at_ > long_list)
+      numbers.reserve(size_t((next_close_ - at_) / usual_bytes_of_number));
   }
   for (;;) {
     skip_blanks();
