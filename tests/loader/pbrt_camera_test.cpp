@@ -9,12 +9,13 @@
 namespace kaustik {
 namespace {
 
-Object sensor(const std::string& lines) {
+Object camera_in(const std::string& lines) {
   return only(parse_scene_of_pbrt(lines + "\nWorldBegin"), "sensor");
 }
 
 TEST(PbrtCamera, PerspectiveLooksAlongZWithXToTheRight) {
-  const Object camera = sensor("LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 40");
+  const Object camera =
+      camera_in("LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 40");
   EXPECT_EQ(camera.type, "perspective");
   EXPECT_EQ(value<double>(camera, "fov"), 40);
   EXPECT_EQ(value<std::string>(camera, "fov_axis"), "smaller");
@@ -26,20 +27,21 @@ TEST(PbrtCamera, PerspectiveLooksAlongZWithXToTheRight) {
   EXPECT_NEAR(t.vector({1, 0, 0}).x, 1, 1e-6);
   // Exports mirror x: then +x of the world is on the right.
   const Transform mirrored = value<Transform>(
-      sensor("Scale -1 1 1 LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\""), "to_world");
+      camera_in("Scale -1 1 1 LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\""), "to_world");
   EXPECT_NEAR(mirrored.vector({1, 0, 0}).x, -1, 1e-6);
 }
 
 TEST(PbrtCamera, LensAndWindow) {
-  const Object lens = sensor(
+  const Object lens = camera_in(
       "Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 4 \"float fov\" 90");
   EXPECT_EQ(lens.type, "thinlens");
   EXPECT_EQ(value<double>(lens, "aperture_radius"), .1);
   EXPECT_EQ(value<double>(lens, "focus_distance"), 4);
-  EXPECT_NEAR(value<double>(sensor("Scale .5 .5 .5 Camera \"perspective\" \"float lensradius\" .1"),
-                            "aperture_radius"),
-              .2, 1e-9);
-  const Object shifted = sensor(
+  EXPECT_NEAR(
+      value<double>(camera_in("Scale .5 .5 .5 Camera \"perspective\" \"float lensradius\" .1"),
+                    "aperture_radius"),
+      .2, 1e-9);
+  const Object shifted = camera_in(
       "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100 "
       "Camera \"perspective\" \"float fov\" 90 \"float screenwindow\" [-1 3 -.5 1.5]");
   EXPECT_EQ(value<std::string>(shifted, "fov_axis"), "x");
@@ -49,12 +51,12 @@ TEST(PbrtCamera, LensAndWindow) {
 }
 
 TEST(PbrtCamera, OrthographicShowsItsWindow) {
-  const Object wide = sensor(
+  const Object wide = camera_in(
       "Camera \"orthographic\" Film \"rgb\" \"integer xresolution\" 300 \"integer yresolution\" "
       "100");
   EXPECT_EQ(wide.type, "orthographic");
   expect_same(value<Transform>(wide, "to_world"), Transform::scale({-3, 3, 1}));
-  const Object part = sensor(
+  const Object part = camera_in(
       "Camera \"orthographic\" \"float screenwindow\" [0 4 0 2] \"float lensradius\" .5 "
       "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100");
   EXPECT_EQ(part.type, "telecentric");
@@ -65,7 +67,7 @@ TEST(PbrtCamera, OrthographicShowsItsWindow) {
 
 TEST(PbrtCamera, SphericalLooksBackAlongX) {
   const Transform t = value<Transform>(
-      sensor("Camera \"spherical\" \"string mapping\" \"equirectangular\""), "to_world");
+      camera_in("Camera \"spherical\" \"string mapping\" \"equirectangular\""), "to_world");
   EXPECT_NEAR(t.vector({0, 0, 1}).x, -1, 1e-6);
   EXPECT_NEAR(t.vector({0, 1, 0}).y, 1, 1e-6);
   EXPECT_NEAR(t.vector({1, 0, 0}).z, 1, 1e-6);  // in the left half

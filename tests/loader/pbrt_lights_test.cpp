@@ -10,28 +10,28 @@ namespace {
 
 constexpr double circle = std::numbers::pi;
 
-Object light(const std::string& lines) {
+Object lamp_in(const std::string& lines) {
   return only(parse_scene_of_pbrt("WorldBegin\n" + lines), "emitter");
 }
 
 TEST(PbrtLights, Point) {
-  const Object lamp = light(
+  const Object lamp = lamp_in(
       "Translate 1 0 0 LightSource \"point\" \"rgb I\" [1 2 3] \"float scale\" 2 "
       "\"point3 from\" [0 5 0]");
   EXPECT_EQ(lamp.type, "point");
   expect_rgb(value<Rgb>(lamp, "intensity"), 2, 4, 6);
   expect_same(value<Transform>(lamp, "to_world"), Transform::translate({1, 5, 0}));
   // Lumens over all directions; of white light.
-  EXPECT_NEAR(value<double>(light("LightSource \"point\" \"float power\" 100"), "intensity"),
+  EXPECT_NEAR(value<double>(lamp_in("LightSource \"point\" \"float power\" 100"), "intensity"),
               100 / (4 * circle), 1e-9);
   // An rgb light's own brightness multiplies its power.
-  expect_rgb(
-      value<Rgb>(light("LightSource \"point\" \"float power\" 100 \"rgb I\" [2 2 2]"), "intensity"),
-      50 / circle, 50 / circle, 50 / circle);
+  expect_rgb(value<Rgb>(lamp_in("LightSource \"point\" \"float power\" 100 \"rgb I\" [2 2 2]"),
+                        "intensity"),
+             50 / circle, 50 / circle, 50 / circle);
 }
 
 TEST(PbrtLights, SpotFallsByTheCosine) {
-  const Object lamp = light(
+  const Object lamp = lamp_in(
       "LightSource \"spot\" \"point3 from\" [0 0 5] \"point3 to\" [0 0 0] \"float coneangle\" 40 "
       "\"float conedeltaangle\" 10 \"float power\" 50");
   EXPECT_EQ(value<double>(lamp, "cutoff_angle"), 40);
@@ -46,7 +46,7 @@ TEST(PbrtLights, SpotFallsByTheCosine) {
 }
 
 TEST(PbrtLights, DistantLightGoesFromFromToTo) {
-  const Object lamp = light(
+  const Object lamp = lamp_in(
       "Rotate 90 1 0 0 LightSource \"distant\" \"point3 from\" [0 0 1] \"point3 to\" [0 0 0] "
       "\"float illuminance\" 700");
   EXPECT_EQ(value<double>(lamp, "irradiance"), 700);
@@ -55,9 +55,10 @@ TEST(PbrtLights, DistantLightGoesFromFromToTo) {
 }
 
 TEST(PbrtLights, InfiniteLight) {
-  EXPECT_EQ(light("LightSource \"infinite\"").type, "constant");
-  EXPECT_NEAR(value<double>(light("LightSource \"infinite\" \"float illuminance\" 10"), "radiance"),
-              10 / circle, 1e-9);
+  EXPECT_EQ(lamp_in("LightSource \"infinite\"").type, "constant");
+  EXPECT_NEAR(
+      value<double>(lamp_in("LightSource \"infinite\" \"float illuminance\" 10"), "radiance"),
+      10 / circle, 1e-9);
   const TemporaryFolder folder;
   folder.write("sky.exr", "?");
   const Description scene = parse_scene_of_pbrt(
@@ -178,7 +179,7 @@ TEST(PbrtMedia, HomogeneousOnBothSides) {
   EXPECT_EQ(value<double>(outside, "sigma_s"), 1);
   EXPECT_EQ(value<double>(outside, "scale"), .5);
   EXPECT_EQ(value<double>(only(outside, "phase"), "g"), .4);
-  EXPECT_EQ(value<std::string>(child(*shapes[0], "interior"), "material"), "Wholemilk");
+  EXPECT_EQ(value<std::string>(child(*shapes[0], "interior"), "material"), "wholemilk");
   EXPECT_EQ(&only(only(scene, "sensor"), "medium"), &outside);
   EXPECT_EQ(&only(only(scene, "emitter"), "medium"), &outside);
   EXPECT_EQ(shapes[1]->children.size(), 1u);  // no boundary
@@ -213,7 +214,7 @@ TEST(PbrtMedia, GridsLieInTheirBox) {
                        "\"uniformgrid\" \"integer nx\" 3 \"float density\" [1]\n"
                        "MediumInterface \"a\" \"\" Shape \"sphere\"");
                  }),
-                 "test.pbrt:1:79", "'density' has 1 numbers", "one for each cell");
+                 "test.pbrt:1:75", "'density' has 1 numbers", "one for each cell");
 }
 
 TEST(PbrtMedia, TheOthersAreTold) {

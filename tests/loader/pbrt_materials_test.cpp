@@ -71,6 +71,12 @@ TEST(PbrtMaterials, DiffuseTransmission) {
   expect_rgb(value<Rgb>(*sheet, "diffuse_reflectance"), .1, .1, .1);
   EXPECT_EQ(value<double>(*sheet, "diffuse_transmittance"), .125);
   EXPECT_EQ(value<double>(*sheet, "specular_reflectance"), 0);
+  // No more than arrives.
+  const auto bright = material(
+      "Material \"diffusetransmission\" \"rgb reflectance\" [.9 .5 .1] \"rgb transmittance\" "
+      "[.6 .5 .1]");
+  expect_rgb(value<Rgb>(*bright, "diffuse_reflectance"), .6, .5 / 1.5, .1 / 1.5);
+  expect_rgb(value<Rgb>(*bright, "diffuse_transmittance"), .4, .5 / 1.5, .1 / 1.5);
 }
 
 TEST(PbrtMaterials, InterfacesAndMixtures) {
@@ -209,7 +215,7 @@ TEST_F(PbrtTextures, RoughnessIsRootedByThePicturesPower) {
       "Material \"conductor\" \"texture roughness\" \"r\"");
   const Object& metal = one_sided(*bsdf_of(scene));
   EXPECT_EQ(metal.type, "roughconductor");
-  const Object& scaled = child(metal, "alpha_u");
+  const Object& scaled = child(metal, "alpha");
   EXPECT_EQ(value<double>(scaled, "scale"), .5);
   EXPECT_EQ(value<double>(child(scaled, "value"), "gamma"), .5);
 }

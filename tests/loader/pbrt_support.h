@@ -8,7 +8,9 @@ namespace kaustik {
 
 inline Description parse_scene_of_pbrt(const std::string& text, bool is_strict = false,
                                        const std::string& folder = "") {
-  return parse_pbrt(text, "test.pbrt", folder, {.is_strict = is_strict});
+  LoadOptions options;
+  options.is_strict = is_strict;
+  return parse_pbrt(text, "test.pbrt", folder, options);
 }
 
 /// Objects of a family at the top of the scene.

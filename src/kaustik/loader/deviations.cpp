@@ -18,7 +18,8 @@ void Deviations::finish(Description& description, bool is_strict) {
     std::vector<Problem> problems;
     for (const Deviation& deviation : all_)
       problems.push_back({fmt::format("{} ({})", deviation.what, deviation.object),
-                          "leave out --strict to render what can be rendered", deviation.place});
+                          "read it without being strict to render what can be rendered",
+                          deviation.place});
     throw Error(ErrorKind::input, std::move(problems));
   }
   for (Deviation& deviation : all_) description.deviations.push_back(std::move(deviation));

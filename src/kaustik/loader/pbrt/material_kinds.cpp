@@ -71,6 +71,31 @@ void set_metal(Object& bsdf, const MaterialTools& tools, const std::string& pref
   set(bsdf, "k", read(k_name));
 }
 
+/// What reflects or transmits, times a factor; at most all of it.
+Input scaled_share(Input share, double factor, const Place& place) {
+  if (share.value)
+    change_numbers(*share.value, [&](double v) { return std::clamp(v * factor, 0.0, 1.0); });
+  if (!share.texture || factor == 1) return share;
+  auto scaled = described("texture", "scale", place);
+  set(*scaled, "scale", std::min(factor, 1e6));
+  hold(*scaled, "value", share.texture);
+  return {{}, scaled};
+}
+
+double largest(const Value& value) {
+  double most = 0;
+  Value copy = value;
+  change_numbers(copy, [&](double v) { return most = std::max(most, v), v; });
+  return most;
+}
+
+/// Of two, channel by channel where they are colours.
+double largest_sum(const Value& a, const Value& b) {
+  const auto x = as_colour(a), y = as_colour(b);
+  if (!x || !y) return largest(a) + largest(b);
+  return std::max({x->r + y->r, x->g + y->g, x->b + y->b});
+}
+
 }  // namespace
 
 std::shared_ptr<Object> two_sided(std::shared_ptr<Object> bsdf) {
@@ -217,17 +242,21 @@ std::shared_ptr<Object> make_thin_dielectric(const MaterialTools& tools) {
 
 std::shared_ptr<Object> make_diffuse_transmission(const MaterialTools& tools) {
   auto bsdf = described("bsdf", "thinphong", tools.place());
-  const double scale = tools.list().number("scale", 1);
-  for (const auto& [name, ours] : {std::pair("reflectance", "diffuse_reflectance"),
-                                   {"transmittance", "diffuse_transmittance"}}) {
-    Input share = tools.textures.colour(tools.list(), name, tools.owner());
-    if (!share.is_given()) share.value = 0.25;
-    if (share.value)
-      change_numbers(*share.value, [&](double v) { return std::clamp(v * scale, 0.0, 1.0); });
-    else if (scale != 1)
-      tools.approximated("'scale' has no effect on its textures");
-    set(*bsdf, ours, share);
+  const double scale = std::max(tools.list().number("scale", 1), 0.0);
+  Input shares[2];
+  for (const auto& [name, share] :
+       {std::pair("reflectance", &shares[0]), {"transmittance", &shares[1]}}) {
+    *share = tools.textures.colour(tools.list(), name, tools.owner());
+    if (!share->is_given()) share->value = 0.25;
+    *share = scaled_share(*share, scale, tools.place());
   }
+  const bool are_plain = shares[0].value && shares[1].value;
+  if (const double sum = are_plain ? largest_sum(*shares[0].value, *shares[1].value) : 0; sum > 1) {
+    for (Input& share : shares) multiply_value(*share.value, 1 / sum);
+    tools.approximated("it reflects and transmits more than all: it is made darker");
+  }
+  set(*bsdf, "diffuse_reflectance", shares[0]);
+  set(*bsdf, "diffuse_transmittance", shares[1]);
   set(*bsdf, "specular_reflectance", 0.0);
   set(*bsdf, "specular_transmittance", 0.0);
   return bsdf;

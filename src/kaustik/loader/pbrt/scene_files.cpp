@@ -18,7 +18,7 @@ constexpr size_t most_repeated_bytes = size_t{64} << 20;
 constexpr size_t most_includes = 100'000;
 constexpr size_t most_depth = 64;
 /// What is made of a text may take so much, and so much for each of its bytes.
-constexpr size_t always_allowed = size_t{512} << 20, allowed_per_byte = 200;
+constexpr size_t always_allowed = size_t{256} << 20, allowed_per_byte = 200;
 
 fs::path identity(const fs::path& path) {
   std::error_code ignored;
@@ -112,7 +112,8 @@ SourceText SceneFiles::main_file(const std::string& path) {
 }
 
 SourceText SceneFiles::main_text(std::string_view text, const std::string& name) {
-  return keep({text.begin(), text.end()}, name, true);
+  read_bytes_ += text.size();
+  return {std::make_shared<const std::string>(name), text, nullptr, true};
 }
 
 SourceText SceneFiles::included(const fs::path& path, const Place& place) {

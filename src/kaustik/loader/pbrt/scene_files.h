@@ -23,6 +23,7 @@ class SceneFiles {
 
   /// The scene file itself.
   SourceText main_file(const std::string& path);
+  /// The same as text, which must outlive this.
   SourceText main_text(std::string_view text, const std::string& name);
 
   /// Names of files that are being read, outermost first: one of them can't be included in itself.

@@ -240,10 +240,11 @@ std::shared_ptr<Object> make_subdivided(const ShapeTools& tools) {
   const auto faces = indices_of(tools.list, 3, positions->size() / 3);
   int levels = std::clamp(tools.list.integer("levels", tools.list.integer("nlevels", 3)), 0, 12);
   tools.list.accept({"scheme"});
-  // Each level has four times the faces.
-  constexpr size_t most_faces = size_t{1} << 22;
+  // Each level has four times the faces: a few levels are usual, more stay in bounds.
+  constexpr size_t most_faces = size_t{1} << 18;
+  constexpr int usual_levels = 4;
   const int wanted = levels;
-  while (levels > 0 && (faces->size() / 3) << (2 * levels) > most_faces) --levels;
+  while (levels > usual_levels && (faces->size() / 3) << (2 * levels) > most_faces) --levels;
   if (levels < wanted)
     tools.approximated(fmt::format("it is divided {} times, not {}", levels, wanted));
   tools.files.spend((faces->size() << (2 * levels)) * 3 * sizeof(float), tools.place());

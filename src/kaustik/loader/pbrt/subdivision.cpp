@@ -106,7 +106,7 @@ Vec3d limit_normal(const std::vector<Vec3d>& points, size_t vertex, const Ring& 
       t += at(i) * ((2 * std::cos(theta) - 2) * std::sin(double(i) * theta));
     t = -t;
   }
-  return t.cross(s) * -1;
+  return t.cross(s);
 }
 
 struct Surface {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -36,7 +37,8 @@ Tokenizer::Tokenizer(const SourceText& source)
     : source_(source),
       at_(source.text.data()),
       end_(source.text.data() + source.text.size()),
-      line_start_(at_) {
+      line_start_(at_),
+      next_close_(at_) {
   if (source.text.starts_with("\xef\xbb\xbf")) line_start_ = at_ += 3;
 }
 
@@ -102,6 +104,14 @@ void Tokenizer::take_numbers(std::vector<Number>& numbers) {
     numbers.push_back(converted<Number>(number));
     has_peeked_ = false;
   }
+  // Of long lists room is made at once: growing would touch all memory twice.
+  constexpr std::ptrdiff_t long_list = 1 << 16, usual_bytes_of_number = 7;
+  if (at_ >= next_close_) {
+    const void* const close = std::memchr(at_, ']', size_t(end_ - at_));
+    next_close_ = close ? static_cast<const char*>(close) : end_;
+    if (close && next_close_ - at_ > long_list)
+      numbers.reserve(size_t((next_close_ - at_) / usual_bytes_of_number));
+  }
   for (;;) {
     skip_blanks();
     if (at_ == end_ || !begins_number(*at_)) return;
@@ -125,7 +135,7 @@ template void Tokenizer::take_numbers(std::vector<double>&);
 template void Tokenizer::take_numbers(std::vector<int32_t>&);
 
 bool parse_number(std::string_view word, double& number) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   const char* const last = word.data() + word.size();
   const auto [end, error] = std::from_chars(word.data(), last, number);
   return error == std::errc() && end == last && std::isfinite(number);

@@ -52,6 +52,7 @@ class Tokenizer {
   const char* at_;
   const char* end_;
   const char* line_start_;
+  const char* next_close_;  ///< the closing bracket that was found last
   int line_ = 1;
   Token peeked_;
   bool has_peeked_ = false;
