@@ -9,6 +9,7 @@
 #include "kaustik/base/file.h"
 #include "kaustik/loader/gzip.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/radiance/radiance_scene.h"
 
 namespace kaustik {
 namespace {
@@ -71,7 +72,8 @@ std::string head_of(const std::string& path) {
 
 const std::vector<SceneFormat>& scene_formats() {
   static const std::vector<SceneFormat> formats = {
-      {"Mitsuba XML", {".xml"}, is_mitsuba_xml, load_mitsuba_xml, parse_mitsuba_xml}};
+      {"Mitsuba XML", {".xml"}, is_mitsuba_xml, load_mitsuba_xml, parse_mitsuba_xml},
+      {"Radiance", {".rad", ".rif", ".vf"}, is_radiance, load_radiance, parse_radiance}};
   return formats;
 }
 
