@@ -107,10 +107,11 @@ TEST(RadianceSkies, MeasuredLightComesBack) {
     const auto lights = objects_of(scene, "emitter");
     const double asked = std::stod(std::string(light).substr(std::string(light).rfind(' ')));
     EXPECT_NEAR(179 * horizontal_irradiance(*lights.back()) / asked, 1, 0.03);
-    if (lights.size() == 2)
+    if (lights.size() == 2) {
       EXPECT_NEAR(
           179 * colour_in(*lights[0], "irradiance")->g / std::stod(std::string(light).substr(3)), 1,
           1e-4);
+    }
   }
 }
 
