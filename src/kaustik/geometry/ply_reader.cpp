@@ -11,13 +11,13 @@
 #include <string_view>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/polygon_cutter.h"
 #include "kaustik/geometry/file_window.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/ply_attributes.h"
 #include "kaustik/geometry/ply_header.h"
 #include "kaustik/geometry/ply_values.h"
-#include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik {
 namespace {

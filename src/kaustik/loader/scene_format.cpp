@@ -12,6 +12,7 @@
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/loader/obj_scene.h"
 #include "kaustik/loader/pbrt_scene.h"
+#include "kaustik/loader/radiance/radiance_scene.h"
 
 namespace kaustik {
 namespace {
@@ -77,7 +78,8 @@ const std::vector<SceneFormat>& scene_formats() {
       {"Mitsuba XML", {".xml"}, is_mitsuba_xml, load_mitsuba_xml, parse_mitsuba_xml},
       {"pbrt", {".pbrt"}, is_pbrt, load_pbrt, parse_pbrt},
       {"glTF", {".gltf", ".glb"}, is_gltf, load_gltf, parse_gltf},
-      {"OBJ", {".obj"}, is_obj, load_obj_scene, parse_obj_scene}};
+      {"OBJ", {".obj"}, is_obj, load_obj_scene, parse_obj_scene},
+      {"Radiance", {".rad", ".rif", ".vf"}, is_radiance, load_radiance, parse_radiance}};
   return formats;
 }
 
