@@ -1,7 +1,11 @@
 // Files of pbrt-v3.
 
+#include <cmath>
+#include <numbers>
+
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/colour_space.h"
+#include "kaustik/loader/pbrt/shapes.h"
 #include "kaustik/loader/pbrt/upgrade.h"
 #include "tests/loader/pbrt_support.h"
 
@@ -60,6 +64,26 @@ TEST(PbrtV3, ShuttersChangeNoBrightness) {
   const Description scene = parse_scene_of_pbrt(
       "Film \"image\" Camera \"perspective\" \"float shutterclose\" .25 WorldBegin");
   EXPECT_FALSE(find_property(only(only(scene, "sensor"), "film"), "iso"));
+}
+
+TEST(PbrtV3, ShapesThatV4HasNoMore) {
+  const Description scene = parse_scene_of_pbrt(R"(WorldBegin
+    Shape "cone" "float radius" 3 "float height" 4
+    Shape "paraboloid" "float radius" 1 "float zmax" 2
+    Shape "hyperboloid" "point p1" [1 0 0] "point p2" [1 0 2]
+    Shape "heightfield" "integer nu" 3 "integer nv" 2 "float Pz" [0 0 0 1 1 1])");
+  const auto shapes = objects_of(scene, "shape");
+  ASSERT_EQ(shapes.size(), 4u);
+  const double pi = std::numbers::pi;
+  EXPECT_NEAR(*area_of(*shapes[0]), pi * 3 * 5, .1);  // π r s, of 96 flat sides
+  // π r / (6 h²) ((r² + 4 h²)^(3/2) − r³)
+  EXPECT_NEAR(*area_of(*shapes[1]), pi / 24 * (std::pow(17, 1.5) - 1), .05);
+  EXPECT_NEAR(*area_of(*shapes[2]), 2 * pi * 2, .02);
+  EXPECT_NEAR(*area_of(*shapes[3]), std::sqrt(2), 1e-6);
+  EXPECT_TRUE(scene.deviations.empty());
+  // They face outward: a wall of the hyperboloid that is a cylinder, and the cone.
+  for (const size_t i : {0, 2}) EXPECT_GT(numbers_in<float>(*shapes[i], "normals")[0], .5) << i;
+  EXPECT_THROW(parse_scene_of_pbrt("WorldBegin Shape \"heightfield\" \"float Pz\" [1]"), Error);
 }
 
 TEST(PbrtV3, AWholeScene) {

@@ -12,11 +12,6 @@ namespace kaustik::pbrt {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr int steps_around = 96, steps_along = 48;
-
-double turn_of(const ShapeTools& tools) {
-  return std::clamp(tools.list.number("phimax", 360), 0.01, 360.0) / 360 * full_turn;
-}
 
 double radius_of(const ShapeTools& tools) {
   const double radius = tools.list.number("radius", 1);
@@ -25,11 +20,23 @@ double radius_of(const ShapeTools& tools) {
               tools.list.place_of("radius"));
 }
 
-/// Points and normals over u and v from 0 to 1; the front is where u × v points.
-struct SurfacePart {
-  std::function<Vec3d(double u, double v)> point, normal;
-  int along_u = steps_around, along_v = steps_along;
-};
+}  // namespace
+
+double turn_of(const ShapeTools& tools) {
+  return std::clamp(tools.list.number("phimax", 360), 0.01, 360.0) / 360 * full_turn;
+}
+
+int steps_for(double turn) {
+  return std::clamp(int(std::ceil(steps_around * turn / full_turn)), 3, steps_around);
+}
+
+void append_cells(std::vector<int32_t>& faces, int32_t first, int32_t across, int32_t up) {
+  for (int32_t j = 0; j < up; ++j)
+    for (int32_t i = 0; i < across; ++i) {
+      const int32_t a = first + j * (across + 1) + i, b = a + 1, c = a + across + 2, d = c - 1;
+      faces.insert(faces.end(), {a, b, c, a, c, d});
+    }
+}
 
 std::shared_ptr<Object> meshed(const ShapeTools& tools, const SurfacePart& part) {
   MeshParts mesh;
@@ -40,20 +47,10 @@ std::shared_ptr<Object> meshed(const ShapeTools& tools, const SurfacePart& part)
       append(mesh.normals, part.normal(u, v));
       mesh.uv.insert(mesh.uv.end(), {float(u), float(v)});
     }
-  for (int32_t j = 0; j < part.along_v; ++j)
-    for (int32_t i = 0; i < part.along_u; ++i) {
-      const int32_t a = j * (part.along_u + 1) + i, b = a + 1, c = a + part.along_u + 2, d = c - 1;
-      mesh.faces.insert(mesh.faces.end(), {a, b, c, a, c, d});
-    }
+  append_cells(mesh.faces, 0, part.along_u, part.along_v);
   tools.files.spend(mesh.bytes(), tools.place());
   return placed(shape_of(std::move(mesh), tools.place()), tools);
 }
-
-int steps_for(double turn) {
-  return std::clamp(int(std::ceil(steps_around * turn / full_turn)), 3, steps_around);
-}
-
-}  // namespace
 
 std::shared_ptr<Object> make_sphere(const ShapeTools& tools) {
   const double radius = radius_of(tools), turn = turn_of(tools);

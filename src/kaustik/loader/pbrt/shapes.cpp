@@ -200,11 +200,7 @@ std::shared_ptr<Object> make_bilinear_patches(const ShapeTools& tools) {
               uv ? float(blend([&](int k) { return double((*uv)[2 * corner[k] + axis]); }, u, v))
                  : float(axis == 0 ? u : v));
       }
-    for (int32_t j = 0; j < n; ++j)
-      for (int32_t i = 0; i < n; ++i) {
-        const int32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 2, d = a + n + 1;
-        mesh.faces.insert(mesh.faces.end(), {a, b, c, a, c, d});
-      }
+    append_cells(mesh.faces, first, n, n);
   }
   // A lone rectangle runs round its rim, as the renderer expects of lamps that it samples best.
   if (mesh.positions.size() == 12 && mesh.faces.size() == 6) {
@@ -263,6 +259,10 @@ std::shared_ptr<Object> make_shape(const ShapeTools& tools, const std::string& t
   if (type == "cylinder") return make_cylinder(tools);
   if (type == "disk") return make_disk(tools);
   if (type == "loopsubdiv") return make_subdivided(tools);
+  if (type == "cone") return make_cone(tools);
+  if (type == "paraboloid") return make_paraboloid(tools);
+  if (type == "hyperboloid") return make_hyperboloid(tools);
+  if (type == "heightfield") return make_heightfield(tools);
   for (const Parameter& parameter : tools.list.all()) parameter.is_used = true;
   tools.deviations.missing(tools.object,
                            fmt::format("there is no shape {}: it is left out", shown(type)),

@@ -1,6 +1,7 @@
 #pragma once
 // Shapes of pbrt as meshes and bodies.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,10 @@ std::shared_ptr<Object> make_shape(const ShapeTools& tools, const std::string& t
 std::shared_ptr<Object> make_sphere(const ShapeTools& tools);
 std::shared_ptr<Object> make_cylinder(const ShapeTools& tools);
 std::shared_ptr<Object> make_disk(const ShapeTools& tools);
+std::shared_ptr<Object> make_cone(const ShapeTools& tools);
+std::shared_ptr<Object> make_paraboloid(const ShapeTools& tools);
+std::shared_ptr<Object> make_hyperboloid(const ShapeTools& tools);
+std::shared_ptr<Object> make_heightfield(const ShapeTools& tools);
 std::shared_ptr<Object> make_ply(const ShapeTools& tools);
 std::shared_ptr<Object> make_triangles(const ShapeTools& tools);
 std::shared_ptr<Object> make_bilinear_patches(const ShapeTools& tools);
@@ -58,6 +63,20 @@ std::shared_ptr<Object> make_subdivided(const ShapeTools& tools);
 
 /// Appends a curve, in the space of `to_world`, as a tube or a ribbon.
 void add_curve(const ShapeTools& tools, MeshParts& mesh);
+
+inline constexpr int steps_around = 96, steps_along = 48;
+/// The angle of 'phimax', in radians.
+double turn_of(const ShapeTools& tools);
+/// Steps round so much of a turn.
+int steps_for(double turn);
+/// Points and normals over u and v from 0 to 1; the front is where u × v points.
+struct SurfacePart {
+  std::function<Vec3d(double u, double v)> point, normal;
+  int along_u = steps_around, along_v = steps_along;
+};
+std::shared_ptr<Object> meshed(const ShapeTools& tools, const SurfacePart& part);
+/// Two triangles for each cell of a grid of vertices that begins at `first`, row by row.
+void append_cells(std::vector<int32_t>& faces, int32_t first, int32_t across, int32_t up);
 
 /// A shape of the mesh, in the space of `to_world`.
 std::shared_ptr<Object> shape_of(MeshParts mesh, const Place& place);
