@@ -1,16 +1,12 @@
 // What is seen in scenes of pbrt, where a closed form tells it.
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/loader/pbrt_support.h"
 #include "tests/support/measure.h"
 
 namespace kaustik::pbrt {
 namespace {
-
-using std::numbers::pi;
-using test::expect_mean;
 
 constexpr const char* camera =
     "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
@@ -84,11 +80,12 @@ TEST(PbrtTraced, LampsWithAlphaZeroShineUnseen) {
                            "AttributeEnd\n";
   EXPECT_EQ(seen(ball).mean(), 0);
   // On a wall at a distance of 3, E = π L r²/d²; it reflects ρ E / π = .5 · 3 · (.2 / 3)².
-  expect_mean("unseen ball",
-              seen(ball + "Material \"diffuse\" Shape \"trianglemesh\" \"point3 P\" "
+  const double expected = .5 * 3 * (.2 / 3) * (.2 / 3);
+  EXPECT_NEAR(seen(ball + "Material \"diffuse\" Shape \"trianglemesh\" \"point3 P\" "
                           "[-9 -9 5 -9 9 5 9 9 5 9 -9 5] \"integer indices\" [0 1 2 0 2 3]",
-                   "", 64),
-              .5 * 3 * (.2 / 3) * (.2 / 3));
+                   "", 64)
+                  .mean(),
+              expected, 1e-3 * expected);
 }
 
 /// A picture of floats.
@@ -109,6 +106,45 @@ TEST(PbrtTraced, PicturesShine) {
                   2);
 }
 
+/// A picture of one colour with opacity.
+std::string tga(int red, int green, int blue, int opacity) {
+  std::string text(18, '\0');
+  text[2] = 2;
+  text[12] = text[14] = 1;
+  text[16] = 32;
+  text[17] = 8;
+  for (const int part : {blue, green, red, opacity}) text += char(part);
+  return text;
+}
+
+TEST(PbrtTraced, PicturesForNumbersAreOpacityOrMeans) {
+  const TemporaryFolder folder;
+  folder.write("leaf.tga", tga(255, 255, 255, 51));
+  folder.write("solid.tga", tga(255, 255, 255, 255));
+  std::string colours = pfm(1, 1, {.3f, .6f, 0});
+  colours[1] = 'F';
+  folder.write("colours.pfm", colours);
+  // A lamp behind a sheet that covers a part of it.
+  const auto seen_behind = [&](const std::string& picture) {
+    return seen(
+        "Texture \"a\" \"float\" \"imagemap\" \"string filename\" " + picture +
+            "\nAttributeBegin Translate 0 0 2 " + std::string(lamp) + square(true, "") +
+            "AttributeEnd\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0] Translate 0 0 -1 "
+            "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 5 1 -1 5 -1 1 5 1 1 5] "
+            "\"texture alpha\" \"a\"",
+        folder / "", 400);
+  };
+  const auto expect_seen = [&](const std::string& picture, double expected) {
+    const RunningStatistics measured = seen_behind(picture);
+    EXPECT_NEAR(measured.mean(), expected, 1e-4 + 5 * measured.standard_error()) << picture;
+    EXPECT_LT(measured.standard_error(), .02) << picture;
+  };
+  expect_seen("\"leaf.tga\"", 3 * .8);
+  expect_seen("\"solid.tga\"", 0);
+  expect_seen("\"colours.pfm\"", 3 * .7);
+  expect_seen("\"colours.pfm\" \"bool invert\" true", 3 * .3);
+}
+
 TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
   // In the square's middle diamond z is above 0: 5 there, 0 below.
   constexpr int size = 64;
@@ -120,10 +156,11 @@ TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
   const TemporaryFolder folder;
   folder.write("sky.pfm", pfm(size, size, values));
   const std::string sky = "LightSource \"infinite\" \"string filename\" \"sky.pfm\"\n";
-  EXPECT_FLOAT_EQ(float(seen(sky, folder / "").mean()), 5);
+  EXPECT_NEAR(seen(sky, folder / "").mean(), 5, .02);
   EXPECT_NEAR(seen("Scale 1 1 -1 " + sky, folder / "").mean(), 0, 1e-6);
   // A wall that faces it reflects ρ E / π = .5 · 5, but for the pixels on the horizon.
-  const std::string wall = "Scale 1 1 -1 " + sky + square(true, "");
+  const std::string wall =
+      "AttributeBegin Scale 1 1 -1 " + sky + "AttributeEnd\n" + square(true, "");
   const RunningStatistics lit = seen(wall, folder / "", 64);
   EXPECT_NEAR(lit.mean(), 2.5, .02 + 4 * lit.standard_error());
 }

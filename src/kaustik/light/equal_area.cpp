@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "kaustik/base/parallel.h"
@@ -11,10 +12,11 @@
 namespace kaustik {
 namespace {
 
-/// Points in each pixel, along both sides; and where a bright part has an edge.
+/// Points in each pixel, along both sides; and where a lamp has an edge.
 constexpr int usual_points = 4, edge_points = 24;
-/// Brightest near its points over their mean, from which a pixel has such an edge.
-constexpr float edge_contrast = 1.5f;
+/// What is so much brighter than the whole picture is a lamp, and a pixel that is darker than what
+/// is near has an edge of it.
+constexpr float lamp_contrast = 4, edge_contrast = 1.02f;
 
 /// Where on the unit square a direction lies whose third coordinate is the middle's; the inverse of
 /// Clarberg's map of the square to the sphere.
@@ -73,24 +75,27 @@ size_t pixel_near(int column, int row, int size) {
          size_t(std::clamp(column, 0, size - 1));
 }
 
-/// Of each pixel and its neighbours the brightest value of all channels.
-std::vector<float> brightest_near(const Image& square) {
+/// Of each pixel and its neighbours the brightest value of all channels; 0 where none is a lamp.
+std::vector<float> lamps_near(const Image& square) {
   const int size = square.width();
   std::vector<float> single(square.pixel_count(), 0), brightest(square.pixel_count(), 0);
   for (int c = 0; c < square.channel_count(); ++c)
     for (size_t i = 0; i < single.size(); ++i)
       single[i] = std::max(single[i], square.channel(c)[i]);
+  const double sum = std::accumulate(single.begin(), single.end(), 0.0);
+  const float least = lamp_contrast * float(sum / double(single.size()));
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column) {
       float& most = brightest[pixel_near(column, row, size)];
       for (int i = 0; i < 9; ++i)
         most = std::max(most, single[pixel_near(column + i % 3 - 1, row + i / 3 - 1, size)]);
+      if (most < least) most = 0;
     }
   return brightest;
 }
 
 /// The mean of a cell's points, for all channels.
-std::vector<float> mean_over(const Image& square, const std::vector<float>& near,
+std::vector<float> mean_over(const Image& square, const std::vector<float>& lamps,
                              const Cell& cell) {
   std::vector<float> mean(size_t(square.channel_count()));
   for (const int points : {usual_points, edge_points}) {
@@ -102,7 +107,7 @@ std::vector<float> mean_over(const Image& square, const std::vector<float>& near
         const float value = square.channel(c)[from];
         mean[size_t(c)] += value * (1.0f / float(points * points));
       }
-      brightest = std::max(brightest, near[from]);
+      brightest = std::max(brightest, lamps[from]);
     }
     for (const float value : mean) sum = std::max(sum, value);
     if (brightest <= edge_contrast * sum) break;
@@ -133,11 +138,11 @@ Image latlong_of_equal_area(const Image& square) {
   const int size = square.width();
   Image result(2 * size, std::max(size, 2), square.channel_names());
   const int width = result.width(), rows = result.height();
-  const std::vector<float> near = brightest_near(square);
+  const std::vector<float> lamps = lamps_near(square);
   parallel_blocks(size_t(rows), 4, [&](size_t begin, size_t end, size_t) {
     for (int y = int(begin); y < int(end); ++y)
       for (int x = 0; x < width; ++x) {
-        const std::vector<float> mean = mean_over(square, near, Cell(x, y, width, rows));
+        const std::vector<float> mean = mean_over(square, lamps, Cell(x, y, width, rows));
         for (int c = 0; c < result.channel_count(); ++c) result.at(x, y, c) = mean[size_t(c)];
       }
   });
