@@ -1,9 +1,11 @@
 // What is seen in scenes of pbrt, where a closed form tells it.
 
 #include <cmath>
+#include <fstream>
 
-#include "tests/loader/pbrt_support.h"
+#include "kaustik/loader/pbrt_scene.h"
 #include "tests/support/measure.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -15,10 +17,14 @@ constexpr const char* camera =
 /// Of a picture that looks from the origin along +z.
 RunningStatistics seen(const std::string& world, const std::string& folder = "",
                        double samples = 4) {
-  const test::TestScene scene(parse_scene_of_pbrt(camera + world, false, folder));
+  const test::TestScene scene(parse_pbrt(camera + world, "test.pbrt", folder));
   return test::render(scene, "path", "<integer name=\"max_depth\" value=\"4\"/>",
                       {.samples = samples})
       .mean({""});
+}
+
+void write(const test::TemporaryFolder& folder, const char* name, const std::string& contents) {
+  std::ofstream(folder.path(name), std::ios::binary) << contents;
 }
 
 /// A square of side 2 at z = 5 whose winding faces the camera, or not, with those normals.
@@ -51,15 +57,15 @@ TEST(PbrtTraced, PatchesAndPlyFilesDoSo) {
                              normals)
                             .mean()),
                   3);
-  const TemporaryFolder folder;
-  folder.write("lamp.ply",
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
-               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-               "-2 -2 5 0 0 -1\n4 -2 5 0 0 -1\n-2 4 5 0 0 -1\n3 0 1 2\n");
+  const test::TemporaryFolder folder;
+  write(folder, "lamp.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "-2 -2 5 0 0 -1\n4 -2 5 0 0 -1\n-2 4 5 0 0 -1\n3 0 1 2\n");
   EXPECT_FLOAT_EQ(
       float(seen(std::string(lamp) + "Shape \"plymesh\" \"string filename\" \"lamp.ply\"",
-                 folder / "")
+                 folder.path(""))
                 .mean()),
       3);
 }
@@ -96,12 +102,12 @@ std::string pfm(int width, int height, const std::vector<float>& values) {
 }
 
 TEST(PbrtTraced, PicturesShine) {
-  const TemporaryFolder folder;
-  folder.write("grey.pfm", pfm(2, 2, {.5, .5, .5, .5}));
+  const test::TemporaryFolder folder;
+  write(folder, "grey.pfm", pfm(2, 2, {.5, .5, .5, .5}));
   EXPECT_FLOAT_EQ(float(seen("AreaLightSource \"diffuse\" \"string filename\" \"grey.pfm\" "
                              "\"float scale\" 4 " +
                                  square(true, ""),
-                             folder / "")
+                             folder.path(""))
                             .mean()),
                   2);
 }
@@ -118,12 +124,12 @@ std::string tga(int red, int green, int blue, int opacity) {
 }
 
 TEST(PbrtTraced, PicturesForNumbersAreOpacityOrMeans) {
-  const TemporaryFolder folder;
-  folder.write("leaf.tga", tga(255, 255, 255, 51));
-  folder.write("solid.tga", tga(255, 255, 255, 255));
+  const test::TemporaryFolder folder;
+  write(folder, "leaf.tga", tga(255, 255, 255, 51));
+  write(folder, "solid.tga", tga(255, 255, 255, 255));
   std::string colours = pfm(1, 1, {.3f, .6f, 0});
   colours[1] = 'F';
-  folder.write("colours.pfm", colours);
+  write(folder, "colours.pfm", colours);
   // A lamp behind a sheet that covers a part of it.
   const auto seen_behind = [&](const std::string& picture) {
     return seen(
@@ -132,7 +138,7 @@ TEST(PbrtTraced, PicturesForNumbersAreOpacityOrMeans) {
             "AttributeEnd\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0] Translate 0 0 -1 "
             "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 5 1 -1 5 -1 1 5 1 1 5] "
             "\"texture alpha\" \"a\"",
-        folder / "", 400);
+        folder.path(""), 400);
   };
   const auto expect_seen = [&](const std::string& picture, double expected) {
     const RunningStatistics measured = seen_behind(picture);
@@ -153,15 +159,15 @@ TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
     for (int x = 0; x < size; ++x)
       values.push_back(
           std::fabs(2 * (x + .5) / size - 1) + std::fabs(2 * (y + .5) / size - 1) < 1 ? 5.f : 0.f);
-  const TemporaryFolder folder;
-  folder.write("sky.pfm", pfm(size, size, values));
+  const test::TemporaryFolder folder;
+  write(folder, "sky.pfm", pfm(size, size, values));
   const std::string sky = "LightSource \"infinite\" \"string filename\" \"sky.pfm\"\n";
-  EXPECT_NEAR(seen(sky, folder / "").mean(), 5, .02);
-  EXPECT_NEAR(seen("Scale 1 1 -1 " + sky, folder / "").mean(), 0, 1e-6);
+  EXPECT_NEAR(seen(sky, folder.path("")).mean(), 5, .02);
+  EXPECT_NEAR(seen("Scale 1 1 -1 " + sky, folder.path("")).mean(), 0, 1e-6);
   // A wall that faces it reflects ρ E / π = .5 · 5, but for the pixels on the horizon.
   const std::string wall =
       "AttributeBegin Scale 1 1 -1 " + sky + "AttributeEnd\n" + square(true, "");
-  const RunningStatistics lit = seen(wall, folder / "", 64);
+  const RunningStatistics lit = seen(wall, folder.path(""), 64);
   EXPECT_NEAR(lit.mean(), 2.5, .02 + 4 * lit.standard_error());
 }
 
