@@ -302,7 +302,7 @@ def write_obj(path, parts, library=None):
 
 def make_obj(folder):
     write_obj(folder / "goblets.obj", [
-        ("table", "table", rectangle(0.8, 0.8), (0, 0, 0)),
+        ("table", "table", rectangle(0.42, 0.36), (0, 0, 0.03)),
         ("clear", "glass", turned(GOBLET, 48), (-0.05, 0.0003, 0.03)),
         ("blue", "blue_glass", turned(GOBLET, 48), (0.045, 0.0003, -0.03)),
         ("bowl", "silver", turned(BOWL, 48), (0.075, 0.0003, 0.085)),
