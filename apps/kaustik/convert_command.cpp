@@ -17,6 +17,7 @@
 #include "kaustik/scene/named_in.h"
 #include "kaustik/scene/picture_as_exr.h"
 #include "kaustik/scene/shape_as_ply.h"
+#include "kaustik/scene/volume_as_vol.h"
 #include "option_values.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -63,6 +64,7 @@ Place source_place(const Object& object) {
 }
 
 std::vector<uint8_t> made_contents(const FileToWrite& file) {
+  if (file.is_volume()) return volume_as_vol(*file.source);
   if (!file.is_mesh()) return picture_as_exr(*file.source, file.factor);
   ShapeAsPly mesh = shape_as_ply(*file.source);
   if (mesh.is_flat)
@@ -114,7 +116,9 @@ void convert(const ConvertOptions& options) {
   written.keep();
   for (const FileToWrite& file : scene.files)
     say("wrote {}: {}, which Mitsuba 3 would read differently from its old file", file.path,
-        file.is_mesh() ? "a mesh" : "a picture");
+        file.is_mesh()     ? "a mesh"
+        : file.is_volume() ? "a volume"
+                           : "a picture");
   say("wrote {}: {} in Mitsuba 3's XML; all {}meshes and pictures are named as before",
       options.output, options.scene, scene.files.empty() ? "" : "other ");
 }

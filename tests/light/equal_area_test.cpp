@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kaustik/light/latlong_distribution.h"
+
 namespace kaustik {
 namespace {
 
@@ -48,22 +50,27 @@ TEST(EqualArea, DirectionsKeepTheirValues) {
       EXPECT_NEAR(latlong.at(x, y, 0), value(direction_of(latlong, x, y)), .12) << x << ", " << y;
 }
 
+/// Of all directions, as EnvmapLight has it between the nodes.
+double mean_over_sphere(const Image& latlong) {
+  std::vector<float> values(latlong.channel(0).begin(), latlong.channel(0).end());
+  const LatLongDistribution between(latlong.width(), std::move(values), std::numbers::pi);
+  return between.integral() / (4 * std::numbers::pi);
+}
+
 TEST(EqualArea, LightIsKept) {
   // A sun of one pixel: its share of the sphere is 1 / size².
   constexpr int size = 32;
   for (const auto& [column, row] : {std::pair(16, 16), {3, 7}, {31, 0}, {20, 31}, {8, 24}}) {
     Image square(size, size, {"Y"});
     square.at(column, row, 0) = 1000;
+    EXPECT_NEAR(mean_over_sphere(latlong_of_equal_area(square)) * size * size, 1000, .1);
+    // With a sky: the sun is what the sky alone lacks.
+    for (float& value : square.channel(0)) value += 1;
     const Image latlong = latlong_of_equal_area(square);
-    double sum = 0, whole = 0;
-    for (int y = 0; y < latlong.height(); ++y) {
-      const double weight = std::sin(std::numbers::pi * y / (latlong.height() - 1));
-      for (int x = 0; x < latlong.width(); ++x) {
-        sum += weight * latlong.at(x, y, 0);
-        whole += weight;
-      }
-    }
-    EXPECT_NEAR(sum / whole * size * size, 1000, 150) << column << ", " << row;
+    EXPECT_NEAR(mean_over_sphere(latlong), 1 + 1000. / (size * size), 1e-4);
+    float sky = latlong.at(0, 0, 0);
+    for (const float value : latlong.channel(0)) sky = std::min(sky, value);
+    EXPECT_NEAR(sky, 1, .02) << column << ", " << row;
   }
 }
 

@@ -6,11 +6,41 @@
 #include "kaustik/loader/pbrt/camera.h"
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
 Object camera_in(const std::string& lines) {
   return only(parse_scene_of_pbrt(lines + "\nWorldBegin"), "sensor");
+}
+
+TEST(PbrtCamera, SamplersHaveTheirUsualNumbers) {
+  for (const auto& [sampler, count] : {std::pair<std::string, int64_t>("", 16),
+                                       {"Sampler \"independent\"", 4},
+                                       {"Sampler \"halton\"", 16},
+                                       {"Sampler \"stratified\" \"integer xsamples\" 3", 12}}) {
+    const Description scene = parse_scene_of_pbrt(sampler + " WorldBegin");
+    EXPECT_EQ(value<int64_t>(only(only(scene, "sensor"), "sampler"), "sample_count"), count)
+        << sampler;
+  }
+}
+
+TEST(PbrtCamera, ExposuresAreToldAndBounded) {
+  const auto film_of = [](const Description& scene) { return only(only(scene, "sensor"), "film"); };
+  const Description usual = parse_scene_of_pbrt("Film \"rgb\" \"float iso\" 250 WorldBegin");
+  EXPECT_EQ(value<double>(film_of(usual), "iso"), 250);
+  EXPECT_TRUE(is_approximated(usual, "film", "exposed 2.5 times"));
+  const Description bright = parse_scene_of_pbrt("Film \"rgb\" \"float iso\" 1e12 WorldBegin");
+  EXPECT_EQ(value<double>(film_of(bright), "iso"), 1e8);
+  EXPECT_TRUE(is_approximated(bright, "film", "not 1e+10 times"));
+  const Description closed =
+      parse_scene_of_pbrt("Camera \"perspective\" \"float shutterclose\" 0 WorldBegin");
+  EXPECT_TRUE(is_approximated(closed, "camera", "never opens"));
+}
+
+TEST(PbrtCamera, RegularisingIsTold) {
+  EXPECT_TRUE(
+      is_ignored(parse_scene_of_pbrt("Integrator \"path\" \"bool regularize\" true WorldBegin"),
+                 "integrator", "'regularize' has no effect"));
 }
 
 TEST(PbrtCamera, PerspectiveLooksAlongZWithXToTheRight) {
@@ -137,4 +167,4 @@ TEST(PbrtFilm, Integrators) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

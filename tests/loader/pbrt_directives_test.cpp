@@ -5,7 +5,7 @@
 #include "kaustik/loader/scene_format.h"
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
 Transform placed_by(const std::string& lines) {
@@ -194,4 +194,4 @@ TEST(PbrtDirectives, ColourSpacesAreTakenToRec709) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

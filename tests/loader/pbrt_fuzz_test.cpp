@@ -5,7 +5,7 @@
 
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
 const std::string whole_pbrt = R"(# every kind of directive
@@ -122,4 +122,4 @@ TEST(PbrtFuzz, OtherNumbersEverywhere) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

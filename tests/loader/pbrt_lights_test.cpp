@@ -5,10 +5,10 @@
 
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
-constexpr double circle = std::numbers::pi;
+using std::numbers::pi;
 
 Object lamp_in(const std::string& lines) {
   return only(parse_scene_of_pbrt("WorldBegin\n" + lines), "emitter");
@@ -23,11 +23,11 @@ TEST(PbrtLights, Point) {
   expect_same(value<Transform>(lamp, "to_world"), Transform::translate({1, 5, 0}));
   // Lumens over all directions; of white light.
   EXPECT_NEAR(value<double>(lamp_in("LightSource \"point\" \"float power\" 100"), "intensity"),
-              100 / (4 * circle), 1e-9);
+              100 / (4 * pi), 1e-9);
   // An rgb light's own brightness multiplies its power.
   expect_rgb(value<Rgb>(lamp_in("LightSource \"point\" \"float power\" 100 \"rgb I\" [2 2 2]"),
                         "intensity"),
-             50 / circle, 50 / circle, 50 / circle);
+             50 / pi, 50 / pi, 50 / pi);
 }
 
 TEST(PbrtLights, SpotFallsByTheCosine) {
@@ -41,8 +41,8 @@ TEST(PbrtLights, SpotFallsByTheCosine) {
   EXPECT_NEAR(t.point({0, 0, 0}).z, 5, 1e-6);
   EXPECT_NEAR(t.vector({0, 0, 1}).z, -1, 1e-6);
   // The flux of a smooth step in the cosine from 30° to 40°.
-  const double a = std::cos(30 * circle / 180), b = std::cos(40 * circle / 180);
-  EXPECT_NEAR(value<double>(lamp, "intensity") * 2 * circle * ((1 - a) + (a - b) / 2), 50, 1e-9);
+  const double a = std::cos(30 * pi / 180), b = std::cos(40 * pi / 180);
+  EXPECT_NEAR(value<double>(lamp, "intensity") * 2 * pi * ((1 - a) + (a - b) / 2), 50, 1e-9);
 }
 
 TEST(PbrtLights, DistantLightGoesFromFromToTo) {
@@ -58,7 +58,7 @@ TEST(PbrtLights, InfiniteLight) {
   EXPECT_EQ(lamp_in("LightSource \"infinite\"").type, "constant");
   EXPECT_NEAR(
       value<double>(lamp_in("LightSource \"infinite\" \"float illuminance\" 10"), "radiance"),
-      10 / circle, 1e-9);
+      10 / pi, 1e-9);
   const TemporaryFolder folder;
   folder.write("sky.exr", "?");
   const Description scene = parse_scene_of_pbrt(
@@ -106,15 +106,53 @@ TEST(PbrtLights, AreaLightsBelongToShapes) {
   const auto radiance = [&](size_t i) {
     return value<double>(only(*shapes[i], "emitter"), "radiance");
   };
-  EXPECT_NEAR(radiance(2), 100 / (circle * 4 * circle), 1e-6);
-  EXPECT_NEAR(radiance(3), 100 / (circle * 4 * circle), 1e-6);
-  EXPECT_NEAR(radiance(4), 100 / (circle * 2), 1e-6);
+  EXPECT_NEAR(radiance(2), 100 / (pi * 4 * pi), 1e-6);
+  EXPECT_NEAR(radiance(3), 100 / (pi * 4 * pi), 1e-6);
+  EXPECT_NEAR(radiance(4), 100 / (pi * 2), 1e-6);
   // Each triangle of a mesh has that power, and each patch.
-  EXPECT_NEAR(radiance(5), 100 / (circle * 2), 1e-6);
-  EXPECT_NEAR(radiance(6), 100 / (circle * 4), 1e-6);
-  EXPECT_NEAR(radiance(7), 200 / (circle * 8), 1e-6);
+  EXPECT_NEAR(radiance(5), 100 / (pi * 2), 1e-6);
+  EXPECT_NEAR(radiance(6), 100 / (pi * 4), 1e-6);
+  EXPECT_NEAR(radiance(7), 200 / (pi * 8), 1e-6);
   EXPECT_TRUE(is_approximated(scene, "area light", "unlike areas"));
   EXPECT_EQ(shapes[8]->children.size(), 1u);
+}
+
+TEST(PbrtLights, PowersOfStretchedBodiesAreUnknown) {
+  for (const char* shape : {"Scale 1 1 3 Shape \"sphere\"", "Scale 1 2 1 Shape \"cylinder\""}) {
+    const Description scene = parse_scene_of_pbrt(
+        "WorldBegin AreaLightSource \"diffuse\" \"float power\" 100 \"float wat\" 3 " +
+        std::string(shape));
+    EXPECT_EQ(value<double>(only(only(scene, "shape"), "emitter"), "radiance"), 1) << shape;
+    EXPECT_TRUE(is_approximated(scene, "area light", "'power' has no effect"));
+    EXPECT_TRUE(is_ignored(scene, "area light", "'wat' has no effect"));
+  }
+  // A cylinder that is longer is round still: 2 π r · 2 · 3.
+  const Object body =
+      only(parse_scene_of_pbrt("WorldBegin AreaLightSource \"diffuse\" \"float power\" 100 "
+                               "Scale 1 1 3 Shape \"cylinder\""),
+           "shape");
+  EXPECT_NEAR(value<double>(only(body, "emitter"), "radiance"), 100 / (pi * 12 * pi), 1e-9);
+}
+
+TEST(PbrtLights, OneSkyWithTwoPortalsIsOne) {
+  const std::string sky = "LightSource \"infinite\" \"rgb L\" [1 2 3] \"point3 portal\" ";
+  const Description scene = parse_scene_of_pbrt("WorldBegin " + sky + "[0 0 0 1 0 0 1 1 0 0 1 0] " +
+                                                sky + "[0 0 5 1 0 5 1 1 5 0 1 5] Rotate 90 0 0 1 " +
+                                                sky + "[0 0 5 1 0 5 1 1 5 0 1 5]");
+  EXPECT_EQ(objects_of(scene, "emitter").size(), 2u);
+  EXPECT_TRUE(is_approximated(scene, "'infinite'", "the first counts"));
+}
+
+TEST(PbrtLights, ProjectionsStandUpright) {
+  const TemporaryFolder folder;
+  folder.write("slide.png", "?");
+  const Description scene =
+      parse_scene_of_pbrt("WorldBegin LightSource \"projection\" \"string filename\" \"slide.png\"",
+                          false, folder / "");
+  // Of Kaustik's picture, u is mirrored, since +x is on the left of its camera; v is kept.
+  const Object& slide = only(only(scene, "emitter"), "texture");
+  expect_same(value<Transform>(slide, "to_uv"),
+              Transform::translate({1, 0, 0}) * Transform::scale({-1, 1, 1}));
 }
 
 TEST(PbrtLights, InvisibleAndForbiddenLamps) {
@@ -208,6 +246,12 @@ TEST(PbrtMedia, GridsLieInTheirBox) {
   const Object& rainbow = child(*shapes[1], "interior");
   EXPECT_EQ(numbers_in<float>(child(rainbow, "sigma_t"), "data"), (std::vector<float>{2, 2, 4}));
   EXPECT_EQ(numbers_in<float>(child(rainbow, "albedo"), "data"), (std::vector<float>{.5, 1, .75}));
+  const Description turned = parse_scene_of_pbrt(R"(WorldBegin
+    MakeNamedMedium "a" "string type" "uniformgrid" "float density" [1] "point3 p0" [2 0 1]
+      "point3 p1" [0 1 0]
+    MediumInterface "a" "" Shape "sphere")");
+  const Object& turned_grid = child(child(only(turned, "shape"), "interior"), "sigma_t");
+  expect_same(value<Transform>(turned_grid, "to_world"), Transform::scale({2, 1, 1}));
   expect_problem(problems_of([] {
                    parse_scene_of_pbrt(
                        "WorldBegin MakeNamedMedium \"a\" \"string type\" "
@@ -228,4 +272,4 @@ TEST(PbrtMedia, TheOthersAreTold) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

@@ -1,11 +1,13 @@
 // pbrt's materials, spectra and textures.
 
 #include <cmath>
+#include <set>
 
+#include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/colour_space.h"
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
 TEST(PbrtMaterials, DiffuseIsSeenFromBothSides) {
@@ -106,11 +108,59 @@ TEST(PbrtMaterials, SubsurfaceFillsTheBody) {
   const Object& sphere = only(scene, "shape");
   EXPECT_EQ(only(sphere, "bsdf").type, "dielectric");
   const Object& medium = child(sphere, "interior");
-  const Rgb extinction = value<Rgb>(medium, "sigma_t");
-  EXPECT_NEAR(extinction.r / extinction.g, 2, 1e-9);
-  EXPECT_NEAR(extinction.r / extinction.b, 4, 1e-9);
+  expect_rgb(value<Rgb>(medium, "sigma_t"), 10, 5, 2.5);  // 1 / mfp
   // α = 1 − exp(−5.09406 a + 2.61188 a² − 4.31805 a³) at a = 0.5.
   EXPECT_NEAR(value<Rgb>(medium, "albedo").g, 1 - std::exp(-2.54703 + .65297 - .53975625), 1e-9);
+}
+
+TEST(PbrtMaterials, TexturesOfSkinLieUnderACoat) {
+  const TemporaryFolder folder;
+  folder.write("skin.png", "?");
+  const Description scene = parse_scene_of_pbrt(
+      "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"skin.png\"\n"
+      "Material \"subsurface\" \"texture reflectance\" \"t\" \"rgb mfp\" [.1 .2 .3] "
+      "\"float roughness\" .01 Shape \"sphere\"",
+      false, folder / "");
+  const Object& coat = one_sided(*bsdf_of(scene));
+  EXPECT_EQ(coat.type, "roughplastic");
+  EXPECT_EQ(value<double>(coat, "int_ior"), 1.33);
+  EXPECT_EQ(child(coat, "diffuse_reflectance").type, "bitmap");
+  EXPECT_EQ(only(scene, "shape").children.size(), 1u);
+  EXPECT_EQ(scene.deviations.size(), 1u);
+  EXPECT_TRUE(is_approximated(scene, "subsurface", "does not spread"));
+}
+
+TEST(PbrtMaterials, MetalsUnderACoatBorderOnIt) {
+  const Object coat = one_sided(*material(
+      "Material \"coatedconductor\" \"rgb reflectance\" [.25 .5 .64] \"float interface.eta\" 2"));
+  EXPECT_EQ(coat.type, "coating");
+  const Object& metal = only(coat, "bsdf");
+  // η = 1 and k = 2 √r / √(1 − r), both over the coat's index.
+  EXPECT_EQ(value<double>(metal, "eta"), .5);
+  expect_rgb(value<Rgb>(metal, "k"), 1 / std::sqrt(3), 1, 4. / 3, 1e-9);
+  // So at normal incidence from within the coat ((η − 1)² + k²) / ((η + 1)² + k²) = 1.25 / 3.25.
+  EXPECT_NEAR((.25 + 1) / (2.25 + 1), 1.25 / 3.25, 1e-12);
+  const Object indices =
+      only(one_sided(*material("Material \"coatedconductor\" \"rgb conductor.eta\" "
+                               "[1 2 3] \"rgb conductor.k\" [4 5 6] "
+                               "\"float interface.eta\" 2")),
+           "bsdf");
+  expect_rgb(value<Rgb>(indices, "eta"), .5, 1, 1.5);
+  expect_rgb(value<Rgb>(indices, "k"), 2, 2.5, 3);
+}
+
+TEST(PbrtMaterials, IdsAreUnique) {
+  const Description scene = parse_scene_of_pbrt(R"(WorldBegin
+    MakeNamedMedium "a" "string type" "homogeneous"
+    MakeNamedMaterial "a" "string type" "diffuse"
+    ObjectBegin "a" Shape "sphere" ObjectEnd
+    NamedMaterial "a" MediumInterface "a" ""
+    Shape "sphere"
+    ObjectInstance "a")");
+  const auto shapes = objects_of(scene, "shape");
+  const std::set<std::string> ids = {only(*shapes[0], "bsdf").id, child(*shapes[0], "interior").id,
+                                     shapes[1]->id};
+  EXPECT_EQ(ids, (std::set<std::string>{"a", "a_2", "a_3"}));
 }
 
 TEST(PbrtMaterials, WhatIsNotHereIsTold) {
@@ -144,6 +194,25 @@ TEST(PbrtSpectra, BlackbodiesAndSamplesHaveLuminanceOne) {
   EXPECT_NEAR(value<SpectralCurve>(only(flat, "emitter"), "intensity").samples[0].second, 1, 1e-9);
   // Wien's law: its maximum is 1 where λT = 2.898 mm K.
   EXPECT_NEAR(pbrt::blackbody_curve(2897.771955e3 / 500).samples[28].second, 1, 1e-6);
+}
+
+TEST(PbrtSpectra, XyzIsTakenByTheMatrixOfRec709) {
+  const Description scene =
+      parse_scene_of_pbrt("WorldBegin LightSource \"point\" \"xyz I\" [.95047 1 1.08883]");
+  expect_rgb(value<Rgb>(only(scene, "emitter"), "intensity"), 1, 1, 1, 1e-3);
+}
+
+TEST(PbrtSpectra, LongFilesAreNoMultiplier) {
+  const TemporaryFolder folder;
+  std::string samples;
+  for (int i = 0; i < 50'000; ++i) samples += std::to_string(300 + i * .01) + " 0.5\n";
+  folder.write("grey.spd", samples);
+  std::string text = "WorldBegin\n";
+  for (int i = 0; i < 1'000; ++i)
+    text += "Material \"diffuse\" \"spectrum reflectance\" \"grey.spd\" Shape \"sphere\"\n";
+  EXPECT_NE(problems_of([&] { parse_scene_of_pbrt(text, false, folder / ""); })[0].message.find(
+                "take more than"),
+            std::string::npos);
 }
 
 TEST(PbrtSpectra, FilesAndNames) {
@@ -217,7 +286,35 @@ TEST_F(PbrtTextures, RoughnessIsRootedByThePicturesPower) {
   EXPECT_EQ(metal.type, "roughconductor");
   const Object& scaled = child(metal, "alpha");
   EXPECT_EQ(value<double>(scaled, "scale"), .5);
-  EXPECT_EQ(value<double>(child(scaled, "value"), "gamma"), .5);
+  EXPECT_EQ(value<double>(child(scaled, "value"), "power"), .5);
+}
+
+TEST_F(PbrtTextures, PicturesForNumbersAreOpacityOrMeans) {
+  const Description scene = parsed(
+      "Texture \"r\" \"float\" \"imagemap\" \"string filename\" \"a.png\" \"bool invert\" true\n"
+      "Material \"conductor\" \"texture roughness\" \"r\" \"bool remaproughness\" false");
+  const Object& bitmap = child(one_sided(*bsdf_of(scene)), "alpha");
+  EXPECT_EQ(value<std::string>(bitmap, "channel"), "number");
+  EXPECT_TRUE(value<bool>(bitmap, "invert"));
+  EXPECT_TRUE(scene.deviations.empty());
+  const Description colour = painted(
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"bool invert\" true");
+  EXPECT_FALSE(find_property(child(one_sided(*bsdf_of(colour)), "reflectance"), "channel"));
+}
+
+TEST_F(PbrtTextures, TexturesOfColourAreRootedAsNumbers) {
+  const Description scene = parsed(
+      "Texture \"r\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\"\n"
+      "Material \"conductor\" \"texture roughness\" \"r\"");
+  EXPECT_EQ(value<double>(child(one_sided(*bsdf_of(scene)), "alpha"), "power"), .5);
+}
+
+TEST_F(PbrtTextures, CurvesAreScaledByColours) {
+  const Description scene = painted(
+      "Texture \"c\" \"spectrum\" \"constant\" \"spectrum value\" [360 .5 830 .5]\n"
+      "Texture \"t\" \"spectrum\" \"scale\" \"texture tex1\" \"c\" \"rgb tex2\" [.2 .4 .6]");
+  // A flat curve is grey.
+  expect_rgb(value<Rgb>(one_sided(*bsdf_of(scene)), "reflectance"), .1, .2, .3, 1e-4);
 }
 
 TEST_F(PbrtTextures, CheckerboardsHaveSquaresOfAUnit) {
@@ -326,4 +423,4 @@ TEST_F(PbrtTextures, ReliefsLieOverTheWhole) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

@@ -6,7 +6,7 @@
 #include "kaustik/loader/pbrt/shapes.h"
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
 Object shape_of_lines(const std::string& lines) {
@@ -30,6 +30,7 @@ TEST(PbrtShapes, TrianglesKeepTheirBuffers) {
   EXPECT_EQ(numbers_in<float>(mesh, "normals")[2], 1);
   EXPECT_EQ(numbers_in<float>(mesh, "uv")[5], 1);  // as they are
   EXPECT_FALSE(has_property(mesh, "face_normals"));
+  EXPECT_TRUE(value<bool>(mesh, "front_by_normals"));
   const Object lone = shape_of_lines("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]");
   EXPECT_EQ(numbers_in<int>(lone, "faces"), (std::vector<int>{0, 1, 2}));
   EXPECT_TRUE(value<bool>(lone, "face_normals"));  // flat without normals
@@ -120,7 +121,7 @@ TEST(PbrtShapes, PlyFilesAreFlatWithoutNormals) {
   const auto shapes = objects_of(scene, "shape");
   ASSERT_EQ(shapes.size(), 2u);
   EXPECT_TRUE(value<bool>(*shapes[0], "face_normals"));
-  EXPECT_FALSE(has_property(*shapes[1], "face_normals"));
+  EXPECT_TRUE(value<bool>(*shapes[1], "front_by_normals"));
   EXPECT_TRUE(is_missing(scene, "plymesh", "'gone.ply' is not there"));
   EXPECT_TRUE(is_missing(scene, "banana", "no shape 'banana'"));
 }
@@ -196,4 +197,4 @@ TEST(PbrtShapes, SubdivisionHasAnEnd) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

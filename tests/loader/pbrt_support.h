@@ -4,7 +4,7 @@
 #include "kaustik/loader/pbrt_scene.h"
 #include "tests/loader/loader_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 
 inline Description parse_scene_of_pbrt(const std::string& text, bool is_strict = false,
                                        const std::string& folder = "") {
@@ -101,4 +101,4 @@ std::vector<T> numbers_in(const Object& object, const std::string& name) {
   return numbers;
 }
 
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

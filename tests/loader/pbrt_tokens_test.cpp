@@ -7,7 +7,7 @@ namespace kaustik::pbrt {
 namespace {
 
 SourceText source_of(std::string_view text) {
-  return {std::make_shared<const std::string>("t.pbrt"), text, nullptr, true};
+  return {std::make_shared<const std::string>("t.pbrt"), text, nullptr};
 }
 
 TEST(PbrtTokens, WordsStringsBracketsAndComments) {
@@ -92,9 +92,13 @@ TEST(PbrtParameters, TellsWhatNobodyAskedFor) {
   list.add_defaults(list_of(more));
   EXPECT_EQ(list.number("b"), 2);
   EXPECT_EQ(list.number("c"), 3);
-  std::vector<std::string> unused;
-  list.visit_unused([&](const Parameter& p) { unused.emplace_back(p.name); });
-  EXPECT_EQ(unused, std::vector<std::string>{"a"});
+  Deviations told;
+  list.tell_unused("ball", told);
+  Description description;
+  told.finish(description, false);
+  ASSERT_EQ(description.deviations.size(), 1u);
+  EXPECT_EQ(description.deviations[0].object, "ball");
+  EXPECT_EQ(description.deviations[0].what, "parameter 'a' has no effect");
 }
 
 TEST(PbrtParameters, MistakesHavePlaceAndRemedy) {

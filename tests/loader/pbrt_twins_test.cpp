@@ -7,18 +7,19 @@
 #include "kaustik/loader/scene_format.h"
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
 std::string twin(const std::string& name) {
   return std::string(KAUSTIK_SOURCE_DIR) + "/tests/loader/twins/pbrt/" + name;
 }
 
-/// What a property is where none is given.
+/// What a property is where none is given; of others there is no usual one.
 Value usual(const std::string& name) {
   if (name == "to_world") return Transform();
   if (name == "reflectance") return 0.5;
-  return 1.0;
+  if (name == "radius") return 1.0;
+  return std::string("not given");
 }
 
 Value value_of(const Object& object, const std::string& name) {
@@ -26,7 +27,7 @@ Value value_of(const Object& object, const std::string& name) {
   return property ? property->value : usual(name);
 }
 
-bool agrees(const Value& a, const Value& b) {
+bool agrees(const std::string& name, const Value& a, const Value& b) {
   constexpr double tolerance = 1e-6;
   const auto near = [](double x, double y) { return std::fabs(x - y) < tolerance; };
   if (const auto* s = std::get_if<Transform>(&a), *t = std::get_if<Transform>(&b); s && t) {
@@ -36,7 +37,8 @@ bool agrees(const Value& a, const Value& b) {
     return true;
   }
   if (const auto* s = std::get_if<Vec3d>(&a), *t = std::get_if<Vec3d>(&b); s && t)
-    return (s->normalized() - t->normalized()).length() < tolerance;
+    return name == "direction" ? (s->normalized() - t->normalized()).length() < tolerance
+                               : (*s - *t).length() < tolerance;
   const auto x = as_colour(a), y = as_colour(b);
   if (x && y) return near(x->r, y->r) && near(x->g, y->g) && near(x->b, y->b);
   return a == b;
@@ -54,7 +56,8 @@ int differences(const Object& a, const Object& b, bool is_expected, const std::s
   std::set<std::string> names;
   for (const Object* object : {&a, &b})
     for (const Property& property : object->properties) names.insert(property.name);
-  for (const std::string& name : names) check(agrees(value_of(a, name), value_of(b, name)), name);
+  for (const std::string& name : names)
+    check(agrees(name, value_of(a, name), value_of(b, name)), name);
   check(a.children.size() == b.children.size(), "children");
   for (size_t i = 0; i < std::min(a.children.size(), b.children.size()); ++i) {
     check(a.children[i].name == b.children[i].name, "names of children");
@@ -66,7 +69,8 @@ int differences(const Object& a, const Object& b, bool is_expected, const std::s
 
 TEST(PbrtTwins, Bodies) {
   const Description read = load_scene(twin("bodies.pbrt"));
-  EXPECT_TRUE(read.deviations.empty());
+  ASSERT_EQ(read.deviations.size(), 1u);
+  EXPECT_TRUE(is_approximated(read, "film", "exposed 1.5 times"));
   const Description wanted = load_scene(twin("bodies.xml"));
   EXPECT_EQ(differences(*read.scene, *wanted.scene, false), 0);
 }
@@ -84,4 +88,4 @@ TEST(PbrtTwins, DifferencesAreFound) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

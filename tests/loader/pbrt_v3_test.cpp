@@ -1,9 +1,11 @@
 // Files of pbrt-v3.
 
+#include "kaustik/loader/object_parts.h"
+#include "kaustik/loader/pbrt/colour_space.h"
 #include "kaustik/loader/pbrt/upgrade.h"
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::pbrt {
 namespace {
 
 TEST(PbrtV3, Materials) {
@@ -39,6 +41,27 @@ TEST(PbrtV3, MixturesNameTheirFirstMaterialByTheAmount) {
   EXPECT_EQ(mix->children[1].object->type, "twosided");  // of weight 0.3
 }
 
+TEST(PbrtV3, BlackbodiesHaveATemperatureAndAScale) {
+  const Description scene = parse_scene_of_pbrt(R"(WorldBegin
+    LightSource "point" "blackbody I" [6500 100] "rgb scale" [2 2 2]
+    AreaLightSource "area" "blackbody L" [3000 7] Shape "sphere"
+    AreaLightSource "area" "rgb L" [1 1 1] "rgb scale" [3 3 3] Shape "sphere")");
+  // Of luminance 1, times both.
+  EXPECT_NEAR(pbrt::luminance(value<SpectralCurve>(only(scene, "emitter"), "intensity")), 200,
+              1e-6);
+  const auto shapes = objects_of(scene, "shape");
+  EXPECT_NEAR(pbrt::luminance(value<SpectralCurve>(only(*shapes[0], "emitter"), "radiance")), 7,
+              1e-6);
+  expect_rgb(value<Rgb>(only(*shapes[1], "emitter"), "radiance"), 3, 3, 3);
+  EXPECT_TRUE(scene.deviations.empty());
+}
+
+TEST(PbrtV3, ShuttersChangeNoBrightness) {
+  const Description scene = parse_scene_of_pbrt(
+      "Film \"image\" Camera \"perspective\" \"float shutterclose\" .25 WorldBegin");
+  EXPECT_FALSE(find_property(only(only(scene, "sensor"), "film"), "iso"));
+}
+
 TEST(PbrtV3, AWholeScene) {
   const Description scene = parse_scene_of_pbrt(R"(
     LookAt 0 0 5 0 0 0 0 1 0
@@ -69,4 +92,4 @@ TEST(PbrtV3, AWholeScene) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::pbrt

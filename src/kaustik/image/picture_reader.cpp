@@ -70,6 +70,27 @@ Image opaque(const Image& image) {
   return result;
 }
 
+/// The channel that makes one number of each pixel: opacity where the picture has one that is not 1
+/// everywhere, else the mean of red, green and blue.
+constexpr std::string_view one_number = "number";
+
+/// The opacity of a picture; -1: it has none, or it is 1 everywhere.
+int uneven_opacity(const Image& image) {
+  const int channel = image.find_channel("A");
+  if (channel < 0) return -1;
+  return std::ranges::all_of(image.channel(channel), [](float a) { return a == 1; }) ? -1 : channel;
+}
+
+/// Those channels of a picture, as their mean.
+Image mean_of(const Image& image, const std::array<int, 3>& channels) {
+  Image mean(image.width(), image.height(), {"Y"});
+  for (const int c : channels)
+    if (c >= 0)
+      for (size_t i = 0; i < image.pixel_count(); ++i)
+        mean.channel(0)[i] += image.channel(c)[i] * (1.0f / 3);
+  return mean;
+}
+
 /// See PictureWish::gamma.
 float decoded(float value, double gamma) {
   return gamma < 0 ? linear_from_srgb(value) : float(std::pow(double(value), gamma));
@@ -166,6 +187,12 @@ bool PictureReader::account(const Use& use) {
 }
 
 Image PictureReader::chosen(Image image, const Arguments& arguments, const PictureWish& wish) {
+  if (wish.channels == one_number) {
+    const bool has_opacity = uneven_opacity(image) >= 0;
+    image = chosen(std::move(image), arguments, {wish.gamma, has_opacity ? "a" : ""});
+    const std::array<int, 3> shown = *colour_channels(image.channel_names());
+    return distinct(shown).size() == 1 ? std::move(image) : mean_of(image, shown);
+  }
   const std::vector<std::string>& names = image.channel_names();
   const auto channels = picture_channels(names, wish.channels);
   const bool wants_opacity = wish.channels == "a" || wish.channels == "A";
@@ -193,8 +220,8 @@ Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pix
   ReadOptions options;
   options.srgb_to_linear = wish.gamma == 0;
   options.whole_picture = true;
-  options.only_colours = true;
-  options.channels = wish.channels;
+  options.only_colours = wish.channels != one_number;
+  if (options.only_colours) options.channels = wish.channels;
   options.memory_bytes = left_bytes_;
   options.kept_bytes_per_pixel = kept_bytes_per_pixel;
   options.memory_remedy = fmt::format(

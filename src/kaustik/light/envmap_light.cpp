@@ -156,8 +156,11 @@ constexpr int64_t bytes_per_pixel = 32;
 /// The picture in latitude and longitude.
 Image picture_around(const LightInputs& inputs, PictureReader& pictures) {
   const Arguments& arguments = inputs.arguments;
-  Image image = pictures.read(arguments, bytes_per_pixel, {.gamma = gamma_of(arguments)});
-  if (arguments.text("projection") == "latlong") return image;
+  const bool is_latlong = arguments.text("projection") == "latlong";
+  // Of a square one twice as many pixels are made.
+  Image image = pictures.read(arguments, is_latlong ? bytes_per_pixel : 2 * bytes_per_pixel,
+                              {.gamma = gamma_of(arguments)});
+  if (is_latlong) return image;
   if (image.width() != image.height())
     throw Error(ErrorKind::input,
                 picture_name(arguments) + " is no square, as pictures of equal areas are",

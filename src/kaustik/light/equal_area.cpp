@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/vec.h"
@@ -10,8 +11,10 @@
 namespace kaustik {
 namespace {
 
-/// Points in each pixel, along both sides.
-constexpr int points = 4;
+/// Points in each pixel, along both sides; and where a bright part has an edge.
+constexpr int usual_points = 4, edge_points = 40;
+/// Brightest over mean of its points, from which a pixel has such an edge.
+constexpr float edge_contrast = 1.5f;
 
 /// Where on the unit square a direction lies whose third coordinate is the middle's; the inverse of
 /// Clarberg's map of the square to the sphere.
@@ -29,6 +32,76 @@ Imath::V2d square_from(const Vec3d& d) {
   return {0.5 * (1 + std::copysign(u, d.x)), 0.5 * (1 + std::copysign(v, d.y))};
 }
 
+/// Cosine of the angle from +y at which a row of nodes stands; those beyond the poles stand there.
+double height_of(int row, int rows) {
+  return std::cos(std::numbers::pi * std::clamp(row, 0, rows - 1) / (rows - 1));
+}
+
+/// The part of the sphere for which a node of the result stands, where values between nodes are
+/// bilinear in turn and height.
+struct Cell {
+  int column, width;
+  double top, bottom;  ///< heights
+
+  Cell(int node_column, int node_row, int nodes_across, int rows)
+      : column(node_column),
+        width(nodes_across),
+        top(0.5 * (height_of(node_row - 1, rows) + height_of(node_row, rows))),
+        bottom(0.5 * (height_of(node_row, rows) + height_of(node_row + 1, rows))) {}
+
+  /// Of points² ones, evenly over the cell.
+  Imath::V2d point(int i, int points) const {
+    const double across = (column + (i % points + 0.5) / points) / width;
+    const double height = std::lerp(top, bottom, (i / points + 0.5) / points);
+    const double phi = 2 * std::numbers::pi * across;
+    const double radius = std::sqrt(std::max(0.0, 1 - height * height));
+    const Vec3d d(radius * std::sin(phi), height, -radius * std::cos(phi));
+    return square_from({d.x, -d.z, d.y});
+  }
+};
+
+size_t pixel_at(const Imath::V2d& at, int size) {
+  const size_t column = size_t(std::clamp(int(at.x * size), 0, size - 1));
+  return size_t(std::clamp(int(at.y * size), 0, size - 1)) * size_t(size) + column;
+}
+
+/// The mean of a cell's points, for all channels.
+std::vector<float> mean_over(const Image& square, const Cell& cell) {
+  std::vector<float> mean(size_t(square.channel_count()));
+  for (const int points : {usual_points, edge_points}) {
+    std::ranges::fill(mean, 0.0f);
+    float brightest = 0, sum = 0;
+    for (int i = 0; i < points * points; ++i) {
+      const size_t from = pixel_at(cell.point(i, points), square.width());
+      for (int c = 0; c < square.channel_count(); ++c) {
+        const float value = square.channel(c)[from];
+        mean[size_t(c)] += value * (1.0f / float(points * points));
+        brightest = std::max(brightest, value);
+      }
+    }
+    for (const float value : mean) sum = std::max(sum, value);
+    if (brightest <= edge_contrast * sum) break;
+  }
+  return mean;
+}
+
+/// Scales each channel so that the whole sphere sends as much light as in the square picture.
+void keep_light(Image& latlong, const Image& square) {
+  for (int c = 0; c < latlong.channel_count(); ++c) {
+    double wanted = 0, is = 0;
+    for (const float value : square.channel(c)) wanted += value;
+    wanted /= double(square.pixel_count());
+    for (int y = 0; y < latlong.height(); ++y) {
+      double sum = 0;
+      for (int x = 0; x < latlong.width(); ++x) sum += latlong.at(x, y, c);
+      const Cell cell(0, y, latlong.width(), latlong.height());
+      is += 0.5 * (cell.top - cell.bottom) * sum / latlong.width();
+    }
+    if (!(is > 0)) continue;
+    for (float& value : latlong.channel(c)) value *= float(wanted / is);
+  }
+}
+
 }  // namespace
 
 Image latlong_of_equal_area(const Image& square) {
@@ -38,25 +111,11 @@ Image latlong_of_equal_area(const Image& square) {
   parallel_blocks(size_t(rows), 4, [&](size_t begin, size_t end, size_t) {
     for (int y = int(begin); y < int(end); ++y)
       for (int x = 0; x < width; ++x) {
-        const size_t pixel = size_t(y) * size_t(width) + size_t(x);
-        for (int c = 0; c < result.channel_count(); ++c) result.channel(c)[pixel] = 0;
-        for (int i = 0; i < points * points; ++i) {
-          // Rows lie at nodes of the latitude, columns between those of the longitude.
-          const double across = (x + (i % points + 0.5) / points) / width;
-          const double down = (y + (i / points + 0.5) / points - 0.5) / (rows - 1);
-          const double phi = 2 * std::numbers::pi * across;
-          const double theta = std::numbers::pi * std::clamp(down, 0.0, 1.0);
-          const Vec3d d(std::sin(theta) * std::sin(phi), std::cos(theta),
-                        -std::sin(theta) * std::cos(phi));
-          const Imath::V2d at = square_from({d.x, -d.z, d.y});
-          const int column = std::clamp(int(at.x * size), 0, size - 1);
-          const int row = std::clamp(int(at.y * size), 0, size - 1);
-          const size_t from = size_t(row) * size_t(size) + size_t(column);
-          for (int c = 0; c < result.channel_count(); ++c)
-            result.channel(c)[pixel] += square.channel(c)[from] * (1.0f / (points * points));
-        }
+        const std::vector<float> mean = mean_over(square, Cell(x, y, width, rows));
+        for (int c = 0; c < result.channel_count(); ++c) result.at(x, y, c) = mean[size_t(c)];
       }
   });
+  keep_light(result, square);
   return result;
 }
 

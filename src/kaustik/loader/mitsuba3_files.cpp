@@ -109,10 +109,18 @@ void FilesToWrite::use_ply(const std::shared_ptr<Object>& shape, const Object& s
 
 void FilesToWrite::use_exr(const std::shared_ptr<Object>& bitmap, const Rgb& factor) {
   const Object source = *bitmap;
-  for (const char* name : {"gamma", "channel", "data"}) remove_property(*bitmap, name);
-  const std::string key = key_of(source, {"filename", "data", "gamma", "channel", "raw"}) +
+  for (const char* name : {"gamma", "channel", "data", "invert", "power"})
+    remove_property(*bitmap, name);
+  const std::string key = key_of(source, {"filename", "data", "gamma", "channel", "raw",
+                                          "as_number", "invert", "power"}) +
                           fmt::format("{} {} {}", factor.r, factor.g, factor.b);
   use(key, bitmap, source, factor, ".exr");
+}
+
+void FilesToWrite::use_vol(const std::shared_ptr<Object>& volume) {
+  const Object source = *volume;
+  remove_property(*volume, "data");
+  use(key_of(source, {"data"}), volume, source, {1, 1, 1}, ".vol");
 }
 
 }  // namespace kaustik

@@ -103,6 +103,7 @@ class Translator {
       const Rgb factor = scaling_.factor_of(*object);
       if (factor != Rgb{1, 1, 1} || needs_exr(*object)) files_.use_exr(object, factor);
     }
+    if (object->family == "volume" && find_property(*object, "data")) files_.use_vol(object);
     if (object->family != "scene") name_what_is_unknown(*object);
     for (const Child& child : object->children) finish(child.object, seen);
   }
@@ -112,7 +113,8 @@ class Translator {
     const auto gamma = number_in(bitmap, "gamma");
     const auto* channel = value_in<std::string>(bitmap, "channel");
     return value_in<std::string>(bitmap, "filename") &&
-           ((gamma && *gamma != 0) || (channel && !channel->empty()));
+           ((gamma && *gamma != 0) || (channel && !channel->empty()) ||
+            find_property(bitmap, "invert") || find_property(bitmap, "power"));
   }
 
   /// Whether Mitsuba 3 would not read the mesh as Kaustik does.
@@ -126,8 +128,8 @@ class Translator {
     const auto* flips = value_in<bool>(shape, "flip_tex_coords");
     // It reads no colours but those of PLY files.
     return find_property(shape, "max_smooth_angle") || find_property(shape, "material") ||
-           (is_obj && index && *index >= 0) || (is_serialized && flips && *flips) ||
-           (shape.type != "ply" && asks_attribute(shape));
+           find_property(shape, "front_by_normals") || (is_obj && index && *index >= 0) ||
+           (is_serialized && flips && *flips) || (shape.type != "ply" && asks_attribute(shape));
   }
 
   bool asks_attribute(const Object& object) {

@@ -201,6 +201,26 @@ std::optional<ThinLens> thin_lens_of(const std::vector<double>& table) {
   return ThinLens{focal_length, stop > 0 ? stop * 1e-3 : focal_length / 4};
 }
 
+namespace {
+
+/// With as many samples as pbrt takes: where no sampler is named 16, of Sobol's points.
+std::shared_ptr<Object> make_sampler(const ViewSettings& settings) {
+  static const Setting usual{"zsobol", ParameterList()};
+  const Setting& sampler = settings.sampler ? *settings.sampler : usual;
+  const ParameterList& list = sampler.parameters;
+  const int of_grid = std::clamp(list.integer("xsamples", 4), 1, 1 << 12) *
+                      std::clamp(list.integer("ysamples", 4), 1, 1 << 12);
+  const bool is_random = sampler.type == "independent" || sampler.type == "random";
+  const int usual_count = sampler.type == "stratified" ? of_grid : is_random ? 4 : 16;
+  const int count = list.integer("pixelsamples", usual_count);
+  auto made =
+      described("sampler", "independent", list.place().file ? list.place() : settings.place);
+  set(*made, "sample_count", int64_t{std::clamp(count, 1, 1 << 24)});
+  return made;
+}
+
+}  // namespace
+
 std::shared_ptr<Object> make_sensor(const ViewTools& tools, const ViewSettings& settings) {
   static const Setting usual{"perspective", ParameterList()};
   const Setting& camera = settings.camera ? *settings.camera : usual;
@@ -228,22 +248,9 @@ std::shared_ptr<Object> make_sensor(const ViewTools& tools, const ViewSettings& 
         fmt::format("there is no camera {}: it is one of perspective", shown(camera.type)),
         list.place());
   set(*sensor, "to_world", to_world);
-  list.visit_unused([&](const Parameter& parameter) {
-    tools.deviations.ignored("camera",
-                             fmt::format("parameter {} has no effect", shown(parameter.name)),
-                             parameter.place);
-  });
+  list.tell_unused("camera", tools.deviations);
   hold(*sensor, "", make_film(tools, settings));
-  if (settings.sampler) {
-    const ParameterList& sampler = settings.sampler->parameters;
-    const int of_grid = std::clamp(sampler.integer("xsamples", 4), 1, 1 << 12) *
-                        std::clamp(sampler.integer("ysamples", 4), 1, 1 << 12);
-    const int usual_count = settings.sampler->type == "stratified" ? of_grid : 16;
-    const int count = sampler.integer("pixelsamples", usual_count);
-    auto samples = described("sampler", "independent", sampler.place());
-    set(*samples, "sample_count", int64_t{std::clamp(count, 1, 1 << 24)});
-    hold(*sensor, "", samples);
-  }
+  hold(*sensor, "", make_sampler(settings));
   return sensor;
 }
 

@@ -8,6 +8,8 @@ namespace kaustik::pbrt {
 namespace {
 
 constexpr size_t most_saved_states = 10'000;
+/// Of names, which are kept for each shape.
+constexpr size_t most_name_bytes = 500;
 
 constexpr std::string_view attribute_names[attribute_kinds] = {"shape", "light", "material",
                                                                "medium", "texture"};
@@ -74,6 +76,10 @@ const std::map<std::string_view, Directives::Handler>& Directives::handlers() {
   return rows;
 }
 
+bool is_directive(std::string_view word) { return Directives::knows(word); }
+
+bool Directives::knows(std::string_view word) { return handlers().contains(word); }
+
 void Directives::run(const SourceText& text) {
   Tokenizer tokens(text);
   for (Token word = tokens.next(); word.kind != TokenKind::end; word = tokens.next())
@@ -103,6 +109,11 @@ std::string Directives::quoted(const Call& call, const char* what) {
   if (token.kind != TokenKind::quoted)
     throw Error(ErrorKind::input, fmt::format("{} lacks {}", call.word.text, what),
                 "write it in quotes", call.tokens.place_of(token));
+  if (token.text.size() > most_name_bytes)
+    throw Error(
+        ErrorKind::input,
+        fmt::format("{} of {} has more than {} bytes", what, call.word.text, most_name_bytes),
+        "give it a shorter one", call.tokens.place_of(token));
   return unescaped(token.text);
 }
 
@@ -234,15 +245,7 @@ void Directives::light_source(const Call& call) {
 
 void Directives::area_light_source(const Call& call) {
   Setting given = setting(call);
-  state_.area_light = nullptr;
-  if (given.type.empty()) return;
-  auto light = std::make_shared<AreaLight>();
-  light->type = std::move(given.type);
-  light->parameters = std::move(given.parameters);
-  if (const auto& defaults = state_.attributes[size_t(AttributeKind::light)])
-    light->parameters.add_defaults(*defaults);
-  light->space = state_.colour_space;
-  state_.area_light = std::move(light);
+  state_.area_light = world_.area_light(given.type, std::move(given.parameters), state_);
 }
 
 void Directives::material(const Call& call) {

@@ -14,6 +14,8 @@ class Directives {
  public:
   Directives(SceneFiles& files, Deviations& deviations);
 
+  static bool knows(std::string_view word);
+
   /// Throws Error(input).
   void run(const SourceText& text);
   /// Makes the scene of all that was read; `place`: of the file.

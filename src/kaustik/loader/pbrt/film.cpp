@@ -48,11 +48,7 @@ std::shared_ptr<Object> make_filter(const ViewTools& tools, const ViewSettings& 
           "pixel filter",
           fmt::format("there is no filter {}: it is 'gaussian'", shown(filter.type)), place);
   }
-  list.visit_unused([&](const Parameter& parameter) {
-    tools.deviations.ignored("pixel filter",
-                             fmt::format("parameter {} has no effect", shown(parameter.name)),
-                             parameter.place);
-  });
+  list.tell_unused("pixel filter", tools.deviations);
   return made;
 }
 
@@ -90,15 +86,34 @@ void set_crop(Object& film, const ParameterList& list, const PictureSize& size) 
   set(film, "crop_height", int64_t{std::max(1, y.end - y.begin)});
 }
 
-/// What multiplies pbrt's picture: the time that the shutter is open, and the film's sensitivity.
-double imaging_ratio(const ViewSettings& settings, const ParameterList& film) {
-  double seconds = 1;
-  if (settings.camera) {
-    const ParameterList& camera = settings.camera->parameters;
-    seconds = camera.number("shutterclose", 1) - camera.number("shutteropen", 0);
-  }
-  // v3's scale.
-  return seconds * film.number("iso", 100) / 100 * film.number("scale", 1);
+/// Seconds that the shutter is open; of pbrt-v3, whose film is an image, they change no brightness.
+double exposure_seconds(const ViewTools& tools, const ViewSettings& settings) {
+  const bool is_old = settings.film && settings.film->type == "image";
+  if (!settings.camera || is_old) return 1;
+  const ParameterList& camera = settings.camera->parameters;
+  const double seconds = camera.number("shutterclose", 1) - camera.number("shutteropen", 0);
+  if (seconds > 0) return seconds;
+  tools.deviations.approximated("camera", "its shutter never opens: it is open for a second",
+                                camera.place_of("shutterclose"));
+  return 1;
+}
+
+/// pbrt multiplies its picture by the shutter's time and the film's sensitivity (v3: by `scale`).
+void set_exposure(Object& made, const ViewTools& tools, const ViewSettings& settings,
+                  const ParameterList& film) {
+  constexpr double least = 1e-4, most = 1e6;
+  const double wanted =
+      exposure_seconds(tools, settings) * film.number("iso", 100) / 100 * film.number("scale", 1);
+  if (wanted == 1) return;
+  const double ratio = std::clamp(wanted, least, most);
+  set(made, "iso", 100 * ratio);
+  tools.deviations.approximated(
+      "film",
+      wanted == ratio
+          ? fmt::format("pictures for displays are exposed {:.4g} times; files of light are not",
+                        ratio)
+          : fmt::format("it is exposed {:.4g} times, not {:.4g} times", ratio, wanted),
+      film.place().file ? film.place() : settings.place);
 }
 
 }  // namespace
@@ -113,8 +128,7 @@ std::shared_ptr<Object> make_film(const ViewTools& tools, const ViewSettings& se
   set(*made, "width", int64_t{size.width});
   set(*made, "height", int64_t{size.height});
   set_crop(*made, list, size);
-  const double ratio = imaging_ratio(settings, list);
-  if (ratio > 1e-4 && ratio < 1e6 && ratio != 1) set(*made, "iso", 100 * ratio);
+  set_exposure(*made, tools, settings, list);
   list.accept({"filename", "diagonal", "savefp16", "maxsampleluminance", "coordinatesystem"});
   if (const std::string sensor = list.text("sensor", "cie1931"); sensor != "cie1931")
     tools.deviations.approximated(
@@ -128,10 +142,7 @@ std::shared_ptr<Object> make_film(const ViewTools& tools, const ViewSettings& se
   if (film.type == "spectral")
     tools.deviations.approximated("film", "the picture has colours, not bands of wavelengths",
                                   place);
-  list.visit_unused([&](const Parameter& parameter) {
-    tools.deviations.ignored(
-        "film", fmt::format("parameter {} has no effect", shown(parameter.name)), parameter.place);
-  });
+  list.tell_unused("film", tools.deviations);
   hold(*made, "", make_filter(tools, settings));
   return made;
 }
@@ -149,6 +160,9 @@ std::shared_ptr<Object> make_integrator(const ViewTools& tools, const ViewSettin
     tools.deviations.approximated(
         "integrator", fmt::format("the picture shows all light, not what {} does", shown(type)),
         place);
+  if (list.flag("regularize", false))
+    tools.deviations.ignored("integrator", "surfaces keep their gloss: 'regularize' has no effect",
+                             list.place_of("regularize"));
   for (const Parameter& parameter : list.all()) parameter.is_used = true;
   // pbrt counts bounces, Kaustik segments.
   const int bounces = list.integer("maxdepth", 5);

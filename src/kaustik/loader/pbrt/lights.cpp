@@ -13,9 +13,9 @@
 namespace kaustik::pbrt {
 namespace {
 
-constexpr double circle = std::numbers::pi;
+using std::numbers::pi;
 
-double radians(double degrees) { return degrees * circle / 180; }
+double radians(double degrees) { return degrees * pi / 180; }
 
 /// One lamp as it is read.
 struct Lamp {
@@ -55,7 +55,7 @@ Transform aimed(const Vec3d& from, const Vec3d& to, const Place& place) {
 
 std::shared_ptr<Object> make_point(const Lamp& lamp) {
   auto light = described("emitter", "point", lamp.place());
-  set(*light, "intensity", lamp.light("I", lamp.factor_for("power", 4 * circle)));
+  set(*light, "intensity", lamp.light("I", lamp.factor_for("power", 4 * pi)));
   const Vec3d from = lamp.list.point("from").value_or(Vec3d(0, 0, 0));
   set(*light, "to_world", lamp.to_world * Transform::translate(from));
   return light;
@@ -66,7 +66,7 @@ std::shared_ptr<Object> make_spot(const Lamp& lamp) {
   const double cone = std::clamp(lamp.list.number("coneangle", 30), 0.01, 179.9);
   const double delta = std::clamp(lamp.list.number("conedeltaangle", 5), 0.0, cone);
   const double inner = std::cos(radians(cone - delta)), outer = std::cos(radians(cone));
-  const double solid_angle = 2 * circle * ((1 - inner) + (inner - outer) / 2);
+  const double solid_angle = 2 * pi * ((1 - inner) + (inner - outer) / 2);
   set(*light, "intensity", lamp.light("I", lamp.factor_for("power", solid_angle)));
   set(*light, "cutoff_angle", cone);
   set(*light, "beam_width", cone - delta);
@@ -115,7 +115,7 @@ std::shared_ptr<Object> make_infinite(const Lamp& lamp) {
           fmt::format("picture {} is not there: light is alike from everywhere", shown(file)),
           place);
     auto light = described("emitter", "constant", place);
-    set(*light, "radiance", lamp.light("L", lamp.factor_for("illuminance", circle)));
+    set(*light, "radiance", lamp.light("L", lamp.factor_for("illuminance", pi)));
     return light;
   }
   auto light = described("emitter", "envmap", place);
@@ -143,13 +143,13 @@ std::shared_ptr<Object> make_projection(const Lamp& lamp) {
   const double fov = std::clamp(lamp.list.number("fov", 90), 1.0, 170.0);
   auto light = described("emitter", "projector", lamp.place());
   auto picture = lamp.tools.textures.picture(file, false, lamp.owner, lamp.place());
-  // Rows of the picture go along +y of the lamp: upside down for Kaustik, as columns are mirrored.
+  // Its upper edge is at +y of the lamp and its right edge at +x, which is the left of Kaustik's.
   remove_property(*picture, "to_uv");
-  set(*picture, "to_uv", Transform::translate({1, 1, 0}) * Transform::scale({-1, -1, 1}));
+  set(*picture, "to_uv", Transform::translate({1, 0, 0}) * Transform::scale({-1, 1, 1}));
   hold(*light, "irradiance", picture);
   set(*light, "fov", fov);
   set(*light, "fov_axis", std::string("smaller"));
-  set(*light, "scale", lamp.list.number("scale", 1) / circle);
+  set(*light, "scale", lamp.list.number("scale", 1) / pi);
   set(*light, "to_world", lamp.to_world);
   if (lamp.list.number("power", -1) > 0)
     lamp.approximated("'power' has no effect: the picture shines with its own light");
@@ -194,7 +194,7 @@ std::shared_ptr<Object> make_area_light(const LightTools& tools, const AreaLight
   const std::string file = list.text("filename");
   if (list.number("power", -1) > 0) {
     if (area && *area > 0 && file.empty())
-      factor = lamp.factor_for("power", circle * *area * (is_two_sided ? 2 : 1));
+      factor = lamp.factor_for("power", pi * *area * (is_two_sided ? 2 : 1));
     else
       lamp.approximated("'power' has no effect: it shines by 'L' and 'scale'");
   }

@@ -41,8 +41,8 @@ void set_metal(Object& bsdf, const MaterialTools& tools, const std::string& pref
   }
   if (reflectance.value) {
     Value k = *reflectance.value;
-    change_numbers(k, extinction_of);
-    set(bsdf, "eta", 1.0);
+    change_numbers(k, [&](double r) { return extinction_of(r) / surroundings; });
+    set(bsdf, "eta", 1 / surroundings);
     set(bsdf, "k", std::move(k));
     return;
   }
@@ -161,7 +161,7 @@ std::shared_ptr<Object> make_diffuse(const MaterialTools& tools) {
   return two_sided(bsdf);
 }
 
-std::shared_ptr<Object> make_coated_diffuse(const MaterialTools& tools) {
+std::shared_ptr<Object> make_coated_diffuse(const MaterialTools& tools, double index) {
   const ParameterList& list = tools.list();
   list.accept({"thickness", "g", "maxdepth", "nsamples"});
   const Facets facets = facets_of(tools);
@@ -175,7 +175,7 @@ std::shared_ptr<Object> make_coated_diffuse(const MaterialTools& tools) {
   const Input reflectance = tools.textures.colour(list, "reflectance", tools.owner());
   set(*bsdf, "diffuse_reflectance", reflectance.is_given() ? reflectance : Input{0.5, nullptr});
   set(*bsdf, "nonlinear", true);
-  set_indices(*bsdf, index_of(tools, "eta", 1.5));
+  set_indices(*bsdf, index_of(tools, "eta", index));
   if (facets.is_smooth) return two_sided(bsdf);
   set(*bsdf, "distribution", std::string("ggx"));
   const auto u = plain_number(facets.u), v = plain_number(facets.v);

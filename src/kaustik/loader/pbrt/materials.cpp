@@ -13,9 +13,9 @@ constexpr int most_material_levels = 16;
 
 }  // namespace
 
-Materials::Materials(SceneFiles& files, Textures& textures, Spectra& spectra,
+Materials::Materials(SceneFiles& files, Textures& textures, Spectra& spectra, Ids& ids,
                      Deviations& deviations)
-    : files_(files), textures_(textures), spectra_(spectra), deviations_(deviations) {
+    : files_(files), textures_(textures), spectra_(spectra), ids_(ids), deviations_(deviations) {
   // The one of shapes that have none: matt, of a reflectance of one half.
   define({"", "diffuse", ParameterList(), {"the default material", ColourSpace::srgb, 0}});
 }
@@ -35,12 +35,9 @@ const MadeMaterial& Materials::made(const MaterialReference& reference) {
                         "it is not defined: what has it is matt and grey", reference.place);
     return made(*entries_.front());
   }
-  // The last one before its user, or else the first one.
-  const std::vector<size_t>& indices = known->second;
-  const auto after = std::partition_point(indices.begin(), indices.end(), [&](size_t i) {
-    return entries_[i]->definition.owner.sequence < reference.sequence;
-  });
-  return made(*entries_[after == indices.begin() ? indices.front() : *(after - 1)]);
+  return made(*entries_[definition_before(known->second, reference.sequence, [&](size_t i) {
+    return entries_[i]->definition.owner.sequence;
+  })]);
 }
 
 const MadeMaterial& Materials::made(Entry& entry) {
@@ -57,14 +54,8 @@ const MadeMaterial& Materials::made(Entry& entry) {
   entry.made = make(definition);
   --depth_;
   if (!definition.name.empty() && entry.made.bsdf->id.empty())
-    entry.made.bsdf->id = entries_[by_name_[definition.name].front()].get() == &entry
-                              ? definition.name
-                              : std::string();
-  definition.parameters.visit_unused([&](const Parameter& parameter) {
-    deviations_.ignored(definition.owner.object,
-                        fmt::format("parameter {} has no effect", shown(parameter.name)),
-                        parameter.place);
-  });
+    entry.made.bsdf->id = ids_.unused(definition.name);
+  definition.parameters.tell_unused(definition.owner.object, deviations_);
   entry.state = Entry::State::made;
   return entry.made;
 }

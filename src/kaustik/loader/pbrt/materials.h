@@ -39,7 +39,8 @@ struct MaterialReference {
 
 class Materials {
  public:
-  Materials(SceneFiles& files, Textures& textures, Spectra& spectra, Deviations& deviations);
+  Materials(SceneFiles& files, Textures& textures, Spectra& spectra, Ids& ids,
+            Deviations& deviations);
 
   /// Its index.
   size_t define(MaterialDefinition definition);
@@ -61,6 +62,7 @@ class Materials {
   SceneFiles& files_;
   Textures& textures_;
   Spectra& spectra_;
+  Ids& ids_;
   Deviations& deviations_;
   std::vector<std::unique_ptr<Entry>> entries_;
   std::map<std::string, std::vector<size_t>> by_name_;
@@ -83,7 +85,8 @@ struct MaterialTools {
 };
 
 std::shared_ptr<Object> make_diffuse(const MaterialTools& tools);
-std::shared_ptr<Object> make_coated_diffuse(const MaterialTools& tools);
+/// `index`: of its coat, where the file gives none.
+std::shared_ptr<Object> make_coated_diffuse(const MaterialTools& tools, double index = 1.5);
 std::shared_ptr<Object> make_conductor(const MaterialTools& tools);
 std::shared_ptr<Object> make_coated_conductor(const MaterialTools& tools);
 std::shared_ptr<Object> make_dielectric(const MaterialTools& tools);

@@ -116,12 +116,8 @@ std::shared_ptr<Object> Media::named(const std::string& name, const Place& place
   if (entry.is_made) return entry.made;
   entry.is_made = true;
   entry.made = make(entry.definition);
-  if (entry.made) entry.made->id = name;
-  entry.definition.parameters.visit_unused([&](const Parameter& parameter) {
-    deviations_.ignored(entry.definition.owner.object,
-                        fmt::format("parameter {} has no effect", shown(parameter.name)),
-                        parameter.place);
-  });
+  if (entry.made) entry.made->id = ids_.unused(name);
+  entry.definition.parameters.tell_unused(entry.definition.owner.object, deviations_);
   return entry.made;
 }
 
@@ -198,12 +194,14 @@ std::shared_ptr<Object> Media::grid_volume(const MediumDefinition& definition,
   files_.spend(samples.size() * sizeof(float), list.place());
   auto volume = described("volume", "gridvolume", list.place());
   set(*volume, "data", Value(Array::of<float>(std::move(extents), std::move(samples))));
-  const Vec3d low = list.point("p0").value_or(Vec3d(0, 0, 0));
-  const Vec3d high = list.point("p1").value_or(Vec3d(1, 1, 1));
+  Vec3d low = list.point("p0").value_or(Vec3d(0, 0, 0));
+  Vec3d high = list.point("p1").value_or(Vec3d(1, 1, 1));
+  for (int axis = 0; axis < 3; ++axis)
+    if (low[axis] > high[axis]) std::swap(low[axis], high[axis]);
   const Vec3d size = high - low;
   if (!(size.x > 0 && size.y > 0 && size.z > 0))
-    throw Error(ErrorKind::input, "the grid's box has no volume", "let p1 lie beyond p0 in x, y, z",
-                list.place_of("p1"));
+    throw Error(ErrorKind::input, "the grid's box has no volume",
+                "let p0 and p1 differ in x, y and z", list.place_of("p1"));
   set(*volume, "to_world",
       definition.to_world * Transform::translate(low) * Transform::scale(size));
   return volume;

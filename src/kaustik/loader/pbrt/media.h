@@ -22,8 +22,8 @@ std::string substance_named(const std::string& name);
 
 class Media {
  public:
-  Media(SceneFiles& files, Spectra& spectra, Deviations& deviations)
-      : files_(files), spectra_(spectra), deviations_(deviations) {}
+  Media(SceneFiles& files, Spectra& spectra, Ids& ids, Deviations& deviations)
+      : files_(files), spectra_(spectra), ids_(ids), deviations_(deviations) {}
 
   void define(const std::string& name, MediumDefinition definition);
   /// Null for "", for a name that nothing has (which is told), and for what Kaustik can't render.
@@ -47,6 +47,7 @@ class Media {
 
   SceneFiles& files_;
   Spectra& spectra_;
+  Ids& ids_;
   Deviations& deviations_;
   std::map<std::string, Entry> entries_;
 };

@@ -31,17 +31,12 @@ double colour_of_hair(double absorption, double beta) {
 /// Single-scattering albedo of a medium whose surface has that colour, under light that is diffuse
 /// (Chiang et al., "Practical and Controllable Subsurface Scattering for Production Path Tracing",
 /// SIGGRAPH 2016 Talks).
-double albedo_of(double colour) {
+double scattered_share_of(double colour) {
   const double a = std::clamp(colour, 0.0, 1.0);
   return 1 - std::exp(-5.09406 * a + 2.61188 * a * a - 4.31805 * a * a * a);
 }
-/// Its mean free path over the one that light seems to have.
-double stretch_of(double colour) {
-  const double a = std::clamp(colour, 0.0, 1.0);
-  return 1.9 - a + 3.5 * (a - 0.8) * (a - 0.8);
-}
-
-Rgb map_colour(const Rgb& c, double (*function)(double)) {
+template <typename Function>
+Rgb map_colour(const Rgb& c, const Function& function) {
   return {function(c.r), function(c.g), function(c.b)};
 }
 
@@ -104,6 +99,14 @@ std::shared_ptr<Object> make_disney(const MaterialTools& tools) {
 MadeMaterial make_subsurface(const MaterialTools& tools) {
   const ParameterList& list = tools.list();
   MadeMaterial made;
+  const Input colour = tools.textures.colour(list, "reflectance", tools.owner());
+  if (colour.texture) {
+    // A medium is alike everywhere: the picture of a skin counts more than how deep light goes.
+    list.accept({"mfp", "scale", "g", "sigma_a", "sigma_s", "name"});
+    tools.approximated("light does not spread below its surface, whose colours lie under a coat");
+    made.bsdf = make_coated_diffuse(tools, 1.33);
+    return made;
+  }
   made.bsdf = make_dielectric(tools);
   for (Property& property : made.bsdf->properties)
     if (property.name == "int_ior" && !list.has("eta")) property.value = 1.33;
@@ -117,22 +120,16 @@ MadeMaterial make_subsurface(const MaterialTools& tools) {
   const auto read = [&](const char* parameter) {
     return tools.spectra.read(list, parameter, SpectrumUse::coefficient, tools.owner());
   };
-  const Input colour = tools.textures.colour(list, "reflectance", tools.owner());
   const auto absorption = read("sigma_a"), scattering = read("sigma_s");
   if (!substance.empty()) {
     set(*medium, "material", substance);
     set(*medium, "scale", scale);
   } else if (colour.is_given() && !absorption) {
-    if (colour.texture) tools.approximated("within it is grey: its texture is left out");
-    const Rgb seen =
-        colour.value ? as_colour(*colour.value).value_or(Rgb{.5, .5, .5}) : Rgb{.5, .5, .5};
+    const Rgb seen = as_colour(*colour.value).value_or(Rgb{.5, .5, .5});
     const Rgb path = as_colour(read("mfp").value_or(1.0)).value_or(Rgb{1, 1, 1});
-    const Rgb stretch = map_colour(seen, stretch_of);
-    const auto extinction = [](double mfp, double by) { return 1 / std::max(mfp * by, 1e-6); };
-    set(*medium, "albedo", map_colour(seen, albedo_of));
-    set(*medium, "sigma_t",
-        Rgb{extinction(path.r, stretch.r), extinction(path.g, stretch.g),
-            extinction(path.b, stretch.b)});
+    const auto extinction = [](double mfp) { return 1 / std::max(mfp, 1e-6); };
+    set(*medium, "albedo", map_colour(seen, scattered_share_of));
+    set(*medium, "sigma_t", map_colour(path, extinction));
     set(*medium, "scale", scale);
   } else {
     // Per millimetre, of pbrt's defaults.

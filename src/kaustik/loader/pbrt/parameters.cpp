@@ -233,9 +233,20 @@ void ParameterList::accept(std::initializer_list<std::string_view> names) const 
   for (const std::string_view name : names) find(name);
 }
 
-void ParameterList::visit_unused(const std::function<void(const Parameter&)>& visit) const {
+void ParameterList::tell_unused(const std::string& object, Deviations& deviations) const {
   for (const Parameter& parameter : all_)
-    if (!parameter.is_used) visit(parameter);
+    if (!parameter.is_used)
+      deviations.ignored(object, fmt::format("parameter {} has no effect", shown(parameter.name)),
+                         parameter.place);
+}
+
+size_t ParameterList::bytes() const {
+  size_t bytes = all_.size() * sizeof(Parameter);
+  for (const Parameter& parameter : all_) {
+    bytes += parameter.numbers.size() * sizeof(double) + parameter.flags.size() / 8;
+    for (const std::string& text : parameter.texts) bytes += sizeof(text) + text.size();
+  }
+  return bytes;
 }
 
 }  // namespace kaustik::pbrt

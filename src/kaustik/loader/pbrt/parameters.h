@@ -2,7 +2,6 @@
 // Lists of parameters: "float radius" 0.5 "rgb L" [ 1 1 1 ] …
 
 #include <cstdint>
-#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "kaustik/base/vec.h"
+#include "kaustik/loader/deviations.h"
 #include "kaustik/loader/pbrt/tokenizer.h"
 
 namespace kaustik::pbrt {
@@ -73,8 +73,10 @@ class ParameterList {
 
   /// Marks as used without asking.
   void accept(std::initializer_list<std::string_view> names) const;
-  /// Those that nobody has asked for.
-  void visit_unused(const std::function<void(const Parameter&)>& visit) const;
+  /// Tells those of an object that nobody has asked for.
+  void tell_unused(const std::string& object, Deviations& deviations) const;
+  /// Memory that its values take.
+  size_t bytes() const;
 
  private:
   Place place_;

@@ -14,14 +14,6 @@ std::string extension_of(const std::string& file) {
   return extension;
 }
 
-/// The power by which stored numbers become linear, about; of EXR, HDR and PFM files 1.
-double usual_power(const std::string& file) {
-  const std::string extension = extension_of(file);
-  const bool is_encoded = extension == ".png" || extension == ".tga" || extension == ".jpg" ||
-                          extension == ".jpeg" || extension == ".bmp" || extension == ".qoi";
-  return is_encoded ? 2.2 : 1;
-}
-
 /// "gamma 2.2".
 std::optional<double> power_of(const std::string& encoding) {
   constexpr std::string_view word = "gamma ";
@@ -69,16 +61,13 @@ std::shared_ptr<Object> make_bitmap(const PictureTexture& picture, SceneFiles& f
   // pbrt asks for the encoding of PNG files alone.
   const bool is_png = extension_of(picture.file) == ".png";
   const std::string encoding = is_png ? picture.encoding : std::string();
-  const double power = encoding == "linear" || picture.is_raw ? 1
-                       : encoding == "sRGB"
-                           ? 2.2
-                           : power_of(encoding).value_or(usual_power(picture.file));
-  if (picture.power != 1)
-    set(*bitmap, "gamma", power * picture.power);
-  else if (encoding == "linear" || picture.is_raw)
+  if (encoding == "linear" || picture.is_raw)
     set(*bitmap, "raw", true);
-  else if (power_of(encoding))
-    set(*bitmap, "gamma", power);
+  else if (const auto power = power_of(encoding))
+    set(*bitmap, "gamma", *power);
+  if (picture.is_number) set(*bitmap, "channel", std::string("number"));
+  if (picture.is_inverted) set(*bitmap, "invert", true);
+  if (picture.power != 1) set(*bitmap, "power", picture.power);
   set(*bitmap, "to_uv",
       Transform::translate({0, 1, 0}) * Transform::scale({1, -1, 1}) * picture.mapping);
   return bitmap;

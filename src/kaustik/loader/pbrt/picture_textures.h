@@ -15,6 +15,9 @@ struct PictureTexture {
   Transform mapping;     ///< of uv, before v is counted from the upper edge
   double power = 1;      ///< of the linear values
   bool is_raw = false;   ///< numbers are linear whatever the file
+  /// One number: opacity where the picture has one, else the mean of its colours.
+  bool is_number = false;
+  bool is_inverted = false;  ///< 1 minus the linear values, before the power
 };
 
 /// A bitmap for it, or what stands for one that is missing.

@@ -1,4 +1,5 @@
-// Spheres, cylinders and disks; parts of them as meshes.
+// Spheres, cylinders and disks; parts of them as meshes. Their front stays the front where they are
+// mirrored: so pbrt samples them as lamps (its intersections say the opposite of that).
 
 #include <algorithm>
 #include <cmath>
@@ -32,14 +33,11 @@ struct SurfacePart {
 
 std::shared_ptr<Object> meshed(const ShapeTools& tools, const SurfacePart& part) {
   MeshParts mesh;
-  const auto put = [](std::vector<float>& numbers, const Vec3d& v) {
-    numbers.insert(numbers.end(), {float(v.x), float(v.y), float(v.z)});
-  };
   for (int j = 0; j <= part.along_v; ++j)
     for (int i = 0; i <= part.along_u; ++i) {
       const double u = double(i) / part.along_u, v = double(j) / part.along_v;
-      put(mesh.positions, part.point(u, v));
-      put(mesh.normals, part.normal(u, v));
+      append(mesh.positions, part.point(u, v));
+      append(mesh.normals, part.normal(u, v));
       mesh.uv.insert(mesh.uv.end(), {float(u), float(v)});
     }
   for (int32_t j = 0; j < part.along_v; ++j)

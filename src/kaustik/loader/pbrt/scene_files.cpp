@@ -31,58 +31,22 @@ bool is_regular(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-constexpr std::string_view directive_words[] = {"Accelerator",
-                                                "ActiveTransform",
-                                                "AreaLightSource",
-                                                "Attribute",
-                                                "AttributeBegin",
-                                                "AttributeEnd",
-                                                "Camera",
-                                                "ColorSpace",
-                                                "ConcatTransform",
-                                                "CoordinateSystem",
-                                                "CoordSysTransform",
-                                                "Film",
-                                                "Identity",
-                                                "Import",
-                                                "Include",
-                                                "Integrator",
-                                                "LightSource",
-                                                "LookAt",
-                                                "MakeNamedMaterial",
-                                                "MakeNamedMedium",
-                                                "Material",
-                                                "MediumInterface",
-                                                "NamedMaterial",
-                                                "ObjectBegin",
-                                                "ObjectInstance",
-                                                "Option",
-                                                "PixelFilter",
-                                                "Renderer",
-                                                "ReverseOrientation",
-                                                "Rotate",
-                                                "Sampler",
-                                                "Scale",
-                                                "Shape",
-                                                "SurfaceIntegrator",
-                                                "Texture",
-                                                "Transform",
-                                                "TransformBegin",
-                                                "TransformTimes",
-                                                "Translate",
-                                                "WorldBegin"};
-
-}  // namespace
-
-bool begins_as_pbrt(std::string_view text) {
+/// Without the mark of UTF-8, blanks and comments that it begins with.
+std::string_view behind_comments(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   while (!text.empty()) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n\f"), text.size()));
     if (!text.starts_with('#')) break;
     text.remove_prefix(std::min(text.find('\n'), text.size()));
   }
-  const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n\"[#"));
-  return std::ranges::find(directive_words, word) != std::end(directive_words);
+  return text;
+}
+
+}  // namespace
+
+bool begins_as_pbrt(std::string_view text) {
+  text = behind_comments(text);
+  return is_directive(text.substr(0, text.find_first_of(" \t\r\n\"[#")));
 }
 
 SceneFiles::SceneFiles(fs::path folder, bool is_strict, Deviations& deviations)
@@ -90,30 +54,32 @@ SceneFiles::SceneFiles(fs::path folder, bool is_strict, Deviations& deviations)
 
 std::vector<uint8_t> SceneFiles::bytes_of(const fs::path& path, size_t most, const Place& place) {
   try {
-    return unpacked(read_file_start(path.string(), most), most, place);
+    std::vector<uint8_t> bytes = unpacked(read_file_start(path.string(), most + 1), most, place);
+    if (bytes.size() <= most) return bytes;
+    throw Error(ErrorKind::input, fmt::format("the file has more than {} bytes", most),
+                "give it in smaller parts", place);
   } catch (const Error& error) {
     const Problem& problem = error.problems().front();
     throw Error(error.kind(), problem.message, problem.remedy, place);
   }
 }
 
-SourceText SceneFiles::keep(std::vector<uint8_t> bytes, const std::string& name,
-                            bool may_be_quoted) {
+SourceText SceneFiles::keep(std::vector<uint8_t> bytes, const std::string& name) {
   const auto owner = std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
   const std::string_view text(reinterpret_cast<const char*>(owner->data()), owner->size());
   read_bytes_ += text.size();
-  return {std::make_shared<const std::string>(name), text, owner, may_be_quoted};
+  return {std::make_shared<const std::string>(name), text, owner};
 }
 
 SourceText SceneFiles::main_file(const std::string& path) {
   open_.push_back(identity(path));
   sources_.insert(path);
-  return keep(bytes_of(path, most_bytes, place_in(path)), path, true);
+  return keep(bytes_of(path, most_bytes, place_in(path)), path);
 }
 
 SourceText SceneFiles::main_text(std::string_view text, const std::string& name) {
   read_bytes_ += text.size();
-  return {std::make_shared<const std::string>(name), text, nullptr, true};
+  return {std::make_shared<const std::string>(name), text, nullptr};
 }
 
 SourceText SceneFiles::included(const fs::path& path, const Place& place) {
@@ -129,9 +95,11 @@ SourceText SceneFiles::included(const fs::path& path, const Place& place) {
   }
   std::vector<uint8_t> bytes = bytes_of(path, most_bytes - read_bytes_, place);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const bool is_scene = begins_as_pbrt(text);
+  if (!behind_comments(text).empty() && !begins_as_pbrt(text))
+    throw Error(ErrorKind::input, fmt::format("{} is no scene of pbrt", shown(path.string())),
+                "include files that begin with a directive", place);
   sources_.insert(path.string());
-  return entry->second = keep(std::move(bytes), path.string(), is_scene);
+  return entry->second = keep(std::move(bytes), path.string());
 }
 
 SceneFiles::Opened::Opened(SceneFiles& files, const std::string& name, const Place& place)
@@ -177,7 +145,7 @@ void SceneFiles::spend(size_t bytes, const Place& place) {
   spent_bytes_ += bytes;
   if (spent_bytes_ <= always_allowed + allowed_per_byte * read_bytes_) return;
   throw Error(ErrorKind::input,
-              fmt::format("the shapes take more than {} MiB as meshes", spent_bytes_ >> 20),
+              fmt::format("shapes and attributes take more than {} MiB", spent_bytes_ >> 20),
               "place alike ones by ObjectInstance, or give fewer levels", place);
 }
 

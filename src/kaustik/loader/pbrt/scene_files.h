@@ -52,12 +52,13 @@ class SceneFiles {
   const std::set<std::string>& sources() const { return sources_; }
 
   /// Memory that objects of the scene take beside what the text writes: meshes of spheres and
-  /// curves. Throws Error(input) where it is out of proportion to the text.
+  /// curves, and what directives repeat. Throws Error(input) where it is out of proportion to the
+  /// text.
   void spend(size_t bytes, const Place& place);
 
  private:
   SourceText included(const std::filesystem::path& path, const Place& place);
-  SourceText keep(std::vector<uint8_t> bytes, const std::string& name, bool may_be_quoted);
+  SourceText keep(std::vector<uint8_t> bytes, const std::string& name);
 
   std::filesystem::path folder_;
   bool is_strict_;
@@ -70,6 +71,8 @@ class SceneFiles {
   size_t includes_ = 0, read_bytes_ = 0, repeated_bytes_ = 0, spent_bytes_ = 0;
 };
 
+/// Whether pbrt knows it as a directive.
+bool is_directive(std::string_view word);
 /// Whether a text begins as a file of pbrt: by a directive, behind comments.
 bool begins_as_pbrt(std::string_view text);
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "kaustik/base/file.h"
+#include "kaustik/loader/gzip.h"
 #include "kaustik/loader/object_parts.h"
 
 namespace kaustik::pbrt {
@@ -48,10 +50,6 @@ Vec3d vertex(const std::vector<float>& positions, size_t index) {
           double(positions[3 * index + 2])};
 }
 
-void append(std::vector<float>& numbers, const Vec3d& v) {
-  numbers.insert(numbers.end(), {float(v.x), float(v.y), float(v.z)});
-}
-
 /// In the world; none of what is no mesh of buffers.
 std::vector<double> triangle_areas(const Object& shape, const Transform& to_world) {
   const auto* positions = value_in<std::shared_ptr<const Array>>(shape, "positions");
@@ -72,9 +70,10 @@ std::vector<double> triangle_areas(const Object& shape, const Transform& to_worl
 }
 
 /// Whether the PLY file gives normals: without them its faces are flat.
-bool ply_has_normals(const ShapeTools& tools, const std::filesystem::path& path) {
+bool ply_has_normals(const std::filesystem::path& path) {
   constexpr size_t longest_header = 64 << 10;
-  const std::vector<uint8_t> start = tools.files.bytes_of(path, longest_header, tools.place());
+  const std::vector<uint8_t> start =
+      unpacked_start(read_file_start(path.string(), longest_header), longest_header);
   std::string_view header(reinterpret_cast<const char*>(start.data()), start.size());
   header = header.substr(0, header.find("end_header"));
   for (const std::string_view name : {" nx\n", " nx\r", " nx "})
@@ -98,10 +97,12 @@ std::shared_ptr<Object> shape_of(MeshParts mesh, const Place& place) {
   auto shape = described("shape", "mesh", place);
   set(*shape, "positions", shared_array(std::move(mesh.positions), 3));
   set(*shape, "faces", shared_array(std::move(mesh.faces), 3));
-  if (mesh.normals.empty())
+  if (mesh.normals.empty()) {
     set(*shape, "face_normals", true);
-  else
+  } else {
     set(*shape, "normals", shared_array(std::move(mesh.normals), 3));
+    set(*shape, "front_by_normals", true);
+  }
   if (!mesh.uv.empty()) set(*shape, "uv", shared_array(std::move(mesh.uv), 2));
   return shape;
 }
@@ -151,10 +152,12 @@ std::shared_ptr<Object> make_triangles(const ShapeTools& tools) {
   auto shape = described("shape", "mesh", tools.place());
   set(*shape, "positions", array_of(positions, 3));
   set(*shape, "faces", array_of(faces, 3));
-  if (normals)
+  if (normals) {
     set(*shape, "normals", array_of(normals, 3));
-  else
+    set(*shape, "front_by_normals", true);
+  } else {
     set(*shape, "face_normals", true);
+  }
   if (uv) set(*shape, "uv", array_of(uv, 2));
   return placed(shape, tools);
 }
@@ -231,7 +234,7 @@ std::shared_ptr<Object> make_ply(const ShapeTools& tools) {
                              tools.list.place_of("displacement"));
   auto shape = described("shape", "ply", tools.place());
   set(*shape, "filename", path->string());
-  if (!ply_has_normals(tools, *path)) set(*shape, "face_normals", true);
+  set(*shape, ply_has_normals(*path) ? "front_by_normals" : "face_normals", true);
   return placed(shape, tools);
 }
 
@@ -274,14 +277,23 @@ std::optional<double> area_of(const Object& shape) {
     return Vec3d(to_world.vector(Vec3f(float(x), float(y), float(z))));
   };
   const Vec3d x = vector(1, 0, 0), y = vector(0, 1, 0), z = vector(0, 0, 1);
-  const double pi_d = std::numbers::pi, radius = number_in(shape, "radius").value_or(1);
-  const double girth = radius * std::sqrt(x.length() * y.length());
-  if (shape.type == "sphere") return 4 * pi_d * girth * girth;
-  if (shape.type == "disk") return pi_d * x.cross(y).length();
+  const double radius = number_in(shape, "radius").value_or(1);
+  const auto are_alike = [](const Vec3d& a, const Vec3d& b) {
+    return std::fabs(a.length() - b.length()) <= 1e-6 * a.length() &&
+           std::fabs(a.dot(b)) <= 1e-6 * a.dot(a);
+  };
+  // Of bodies that are stretched or sheared there is no short formula.
+  const bool is_round = are_alike(x, y) && (shape.type != "sphere" || are_alike(x, z)) &&
+                        std::fabs(x.dot(z)) + std::fabs(y.dot(z)) <= 1e-6 * x.dot(x);
+  if (!is_round && (shape.type == "sphere" || shape.type == "cylinder")) return std::nullopt;
+  const double girth = radius * x.length();
+  if (shape.type == "sphere") return 4 * std::numbers::pi * girth * girth;
+  if (shape.type == "disk") return std::numbers::pi * x.cross(y).length();
   if (shape.type == "cylinder") {
     const auto *p0 = value_in<Vec3d>(shape, "p0"), *p1 = value_in<Vec3d>(shape, "p1");
-    return p0 && p1 ? std::optional(2 * pi_d * girth * std::fabs(p1->z - p0->z) * z.length())
-                    : std::nullopt;
+    return p0 && p1
+               ? std::optional(2 * std::numbers::pi * girth * std::fabs(p1->z - p0->z) * z.length())
+               : std::nullopt;
   }
   const std::vector<double> areas = triangle_areas(shape, to_world);
   if (areas.empty()) return std::nullopt;

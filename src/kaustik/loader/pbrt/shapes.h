@@ -23,6 +23,10 @@ struct MeshParts {
   }
 };
 
+inline void append(std::vector<float>& numbers, const Vec3d& v) {
+  numbers.insert(numbers.end(), {float(v.x), float(v.y), float(v.z)});
+}
+
 /// What makers of shapes work with.
 struct ShapeTools {
   SceneFiles& files;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/base/color.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/spectrum_file.h"
 
@@ -42,12 +43,10 @@ constexpr std::string_view metals[] = {"ag", "al", "au", "cu", "cuzn", "mgo", "t
 /// Near which an index of refraction counts where it is one number.
 constexpr double yellow_nm = 587.6;
 
+/// Of luminance 1 and such chromaticities, in Rec. 709.
 Rgb colour_of_light(double x, double y) {
-  // Of X, Y, Z with Y = 1, by the matrix of Rec. 709.
-  const double big_x = x / y, big_z = (1 - x - y) / y;
-  return {std::max(0.0, 3.2404542 * big_x - 1.5371385 - 0.4985314 * big_z),
-          std::max(0.0, -0.9692660 * big_x + 1.8760108 + 0.0415560 * big_z),
-          std::max(0.0, 0.0556434 * big_x - 0.2040259 + 1.0572252 * big_z)};
+  const Rgb colour = rgb_from_xyz({x / y, 1, (1 - x - y) / y});
+  return {std::max(0.0, colour.r), std::max(0.0, colour.g), std::max(0.0, colour.b)};
 }
 
 std::string in_small_letters(std::string text) {
@@ -110,9 +109,13 @@ Value Spectra::of_parameter(const Parameter& parameter, SpectrumUse use, const O
     const double most = use == SpectrumUse::reflectance ? 1 : 1e30;
     return std::clamp(number, 0.0, most);
   }
-  if (!(number >= 10 && number <= 1e6))
+  if (!(number >= 200 && number <= 1e6))
     throw Error(ErrorKind::input, fmt::format("{} K is no temperature of a light", number),
-                "give one from 10 to 1000000", parameter.place);
+                "give one from 200 to 1000000", parameter.place);
+  if (parameter.number_count() > 1)
+    deviations_.ignored(owner.object,
+                        fmt::format("of {} the temperature alone counts", shown(parameter.name)),
+                        parameter.place);
   return of_curve(blackbody_curve(number), use, parameter, owner);
 }
 
@@ -123,10 +126,7 @@ Value Spectra::of_rgb(const Parameter& parameter, SpectrumUse use, const Owner& 
   const Rgb given{parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
   Rgb colour = given;
   if (parameter.type == "xyz") {
-    const Rgb unit = given.g > 0 ? colour_of_light(given.r / (given.r + given.g + given.b),
-                                                   given.g / (given.r + given.g + given.b))
-                                 : Rgb{0, 0, 0};
-    colour = {unit.r * given.g, unit.g * given.g, unit.b * given.g};
+    colour = rgb_from_xyz({given.r, given.g, given.b});
   } else {
     colour = use == SpectrumUse::light ? light_from(owner.space, given)
                                        : reflectance_from(owner.space, given);
@@ -172,20 +172,32 @@ Value Spectra::of_name(const Parameter& parameter, SpectrumUse use, const Owner&
     }
   if (const auto index = index_of_glass(name)) return *index;
   if (const auto path = files_.find(name, parameter.place)) {
-    try {
-      return of_curve(read_spectrum_file(path->string()), use, parameter, owner);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::input) throw;
-      deviations_.missing(owner.object,
-                          fmt::format("spectrum {} can't be read: {}", shown(name),
-                                      error.problems().front().message),
-                          parameter.place);
-      return use == SpectrumUse::reflectance ? 0.5 : 1.0;
+    const FileCurve& file = curve_in(path->string());
+    if (file.fault.empty()) {
+      files_.spend(file.curve.samples.size() * sizeof(file.curve.samples[0]), parameter.place);
+      return of_curve(file.curve, use, parameter, owner);
     }
+    deviations_.missing(owner.object,
+                        fmt::format("spectrum {} can't be read: {}", shown(name), file.fault),
+                        parameter.place);
+    return use == SpectrumUse::reflectance ? 0.5 : 1.0;
   }
   deviations_.missing(owner.object, fmt::format("there is no spectrum {}", shown(name)),
                       parameter.place);
   return use == SpectrumUse::reflectance ? 0.5 : 1.0;
+}
+
+const Spectra::FileCurve& Spectra::curve_in(const std::string& path) {
+  const auto [entry, is_new] = file_curves_.try_emplace(path);
+  FileCurve& file = entry->second;
+  if (!is_new) return file;
+  try {
+    file.curve = read_spectrum_file(path);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    file.fault = error.problems().front().message;
+  }
+  return file;
 }
 
 Value Spectra::of_curve(SpectralCurve curve, SpectrumUse use, const Parameter& parameter,

@@ -1,6 +1,7 @@
 #pragma once
 // Spectra as pbrt writes them: rgb, blackbody, samples, names, files.
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -44,15 +45,23 @@ class Spectra {
   Value of_curve(SpectralCurve curve, SpectrumUse use, const Parameter& parameter,
                  const Owner& owner);
 
+  /// What a file holds, which is read once.
+  struct FileCurve {
+    SpectralCurve curve;
+    std::string fault;  ///< why it is none; "": it is one
+  };
+  const FileCurve& curve_in(const std::string& path);
+
   SceneFiles& files_;
   Deviations& deviations_;
+  std::map<std::string, FileCurve> file_curves_;
 };
 
 /// Index of refraction of a named glass at 587.6 nm, such as "glass-BK7"; nothing: there is none.
 std::optional<double> index_of_glass(const std::string& name);
 /// Kaustik's name of a metal whose eta or k is named, such as "cu" of "metal-Cu-k"; "": none.
 std::string metal_of(const std::string& name);
-/// The wavelengths' mean of what may be a curve: for indices of refraction near 588 nm.
+/// One number of what may be a curve, which counts near 588 nm; of a colour its green.
 double number_of_index(const Value& value);
 
 }  // namespace kaustik::pbrt

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/base/color.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/picture_textures.h"
 #include "kaustik/loader/pbrt/texture_mixes.h"
@@ -14,6 +15,12 @@ namespace {
 
 constexpr int most_levels = 32;
 
+/// A curve as the colour that it has in white light.
+Rgb colour_of(const Value& value) {
+  if (const auto* curve = std::get_if<SpectralCurve>(&value)) return rgb_from_reflectance(*curve);
+  return as_colour(value).value_or(Rgb{1, 1, 1});
+}
+
 Input times(Input input, const Value& factor, const Place& place) {
   if (input.texture) {
     auto scaled = described("texture", "scale", place);
@@ -21,13 +28,12 @@ Input times(Input input, const Value& factor, const Place& place) {
     hold(*scaled, "value", input.texture);
     return {{}, scaled};
   }
-  const auto a = as_colour(*input.value), b = as_colour(factor);
   if (const auto number = as_number(factor)) {
     multiply_value(*input.value, *number);
     return input;
   }
-  if (a && b) return {Value(Rgb{a->r * b->r, a->g * b->g, a->b * b->b}), nullptr};
-  return input;
+  const Rgb a = colour_of(*input.value), b = colour_of(factor);
+  return {Value(Rgb{a.r * b.r, a.g * b.g, a.b * b.b}), nullptr};
 }
 
 }  // namespace
@@ -41,11 +47,10 @@ void Textures::define(TextureDefinition definition) {
 Textures::Entry* Textures::find(const std::string& name, bool is_float, size_t sequence) {
   const auto known = by_name_.find({name, is_float});
   if (known == by_name_.end()) return nullptr;
-  const std::vector<size_t>& indices = known->second;
-  const auto after = std::partition_point(indices.begin(), indices.end(), [&](size_t i) {
-    return entries_[i]->definition.owner.sequence < sequence;
-  });
-  return entries_[after == indices.begin() ? indices.front() : *(after - 1)].get();
+  return entries_[definition_before(
+                      known->second, sequence,
+                      [&](size_t i) { return entries_[i]->definition.owner.sequence; })]
+      .get();
 }
 
 const Input& Textures::made(Entry& entry) {
@@ -63,24 +68,19 @@ const Input& Textures::made(Entry& entry) {
   --depth_;
   if (!entry.made.is_given()) entry.made.value = 0.5;
   entry.state = Entry::State::made;
-  tell_unused(definition);
+  definition.parameters.tell_unused(definition.owner.object, deviations_);
   return entry.made;
 }
 
-void Textures::tell_unused(const TextureDefinition& definition) {
-  definition.parameters.visit_unused([&](const Parameter& parameter) {
-    deviations_.ignored(definition.owner.object,
-                        fmt::format("parameter {} has no effect", shown(parameter.name)),
-                        parameter.place);
-  });
+Textures::Entry* Textures::find_number(const std::string& name, size_t sequence) {
+  Entry* entry = find(name, true, sequence);
+  return entry ? entry : find(name, false, sequence);
 }
 
 Input Textures::named(const Parameter& parameter, bool is_float, const Owner& owner) {
   const std::string name = parameter.texts.empty() ? std::string() : parameter.texts.front();
-  if (Entry* entry = find(name, is_float, owner.sequence)) return made(*entry);
-  // Files of v3 give numbers by textures of colours.
-  if (is_float)
-    if (Entry* entry = find(name, false, owner.sequence)) return made(*entry);
+  Entry* entry = is_float ? find_number(name, owner.sequence) : find(name, false, owner.sequence);
+  if (entry) return made(*entry);
   deviations_.missing(owner.object, fmt::format("there is no texture {}", shown(name)),
                       parameter.place);
   return is_float ? Input{0.5, nullptr} : Input{{}, missing_picture(parameter.place)};
@@ -105,7 +105,7 @@ Input Textures::root_of_number(const ParameterList& list, std::string_view name,
     return number ? Input{std::sqrt(std::max(0.0, *number)), nullptr} : Input{};
   }
   const std::string wanted = texture->texts.empty() ? std::string() : texture->texts.front();
-  Entry* entry = find(wanted, true, owner.sequence);
+  Entry* entry = find_number(wanted, owner.sequence);
   if (!entry) return named(*texture, true, owner);
   const Input root = root_of(*entry);
   if (root.is_given()) return root;
@@ -263,13 +263,15 @@ Input Textures::make_picture(const TextureDefinition& definition, double power) 
   if (list.has("gamma")) wanted.encoding = list.flag("gamma", true) ? "sRGB" : "linear";
   wanted.mapping = mapping(definition);
   wanted.power = power;
-  if (list.flag("invert", false))
-    deviations_.approximated(definition.owner.object, "'invert' has no effect",
-                             list.place_of("invert"));
+  wanted.is_number = definition.is_float;
+  wanted.is_inverted = list.flag("invert", false);
   const std::shared_ptr<Object> bitmap =
       make_bitmap(wanted, files_, deviations_, definition.owner.object, list.place());
   const double scale = list.number("scale", 1);
   if (scale == 1) return {{}, bitmap};
+  if (wanted.is_inverted)
+    deviations_.approximated(definition.owner.object, "it is inverted, and then scaled",
+                             list.place_of("invert"));
   return times({{}, bitmap}, std::clamp(std::pow(std::max(scale, 0.0), power), 0.0, 1e6),
                list.place());
 }

@@ -19,12 +19,6 @@ struct TextureDefinition {
   Owner owner;  ///< "texture 'wood'"
 };
 
-/// How a picture's numbers are brought to what is asked for.
-struct PictureUse {
-  double power = 1;       ///< of the values, as they are linear
-  bool is_light = false;  ///< in textures of lamps
-};
-
 class Textures {
  public:
   Textures(SceneFiles& files, Spectra& spectra, Deviations& deviations)
@@ -62,12 +56,13 @@ class Textures {
   Input make_bilinear(const TextureDefinition& definition);
   Input make_noise(const TextureDefinition& definition);
   Input root_of(Entry& entry);
+  /// Of numbers, or else of colours: files of pbrt-v3 give numbers by these. Null: there is none.
+  Entry* find_number(const std::string& name, size_t sequence);
   /// A value of the texture's kind; `otherwise` where it is not given.
   Input part(const TextureDefinition& definition, const char* name, double otherwise);
   Input named(const Parameter& parameter, bool is_float, const Owner& owner);
   /// Of uv to what the texture's own coordinates are.
   Transform mapping(const TextureDefinition& definition);
-  void tell_unused(const TextureDefinition& definition);
 
   SceneFiles& files_;
   Spectra& spectra_;

@@ -93,7 +93,7 @@ const Token& Tokenizer::peek() {
 }
 
 Place Tokenizer::place_of(const Token& token) const {
-  return {source_.name, token.line, source_.may_be_quoted ? token.column : 0};
+  return {source_.name, token.line, token.column};
 }
 
 template <typename Number>

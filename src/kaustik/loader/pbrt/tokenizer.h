@@ -16,8 +16,6 @@ struct SourceText {
   std::shared_ptr<const std::string> name;  ///< for places
   std::string_view text;
   std::shared_ptr<const void> owner;  ///< keeps the letters
-  /// Whether errors may show lines of it; those of a file that is no scene stay unseen.
-  bool may_be_quoted = true;
 };
 
 enum class TokenKind : uint8_t { end, word, quoted, open, close };

@@ -157,10 +157,17 @@ std::string upgraded_material(const std::string& type, ParameterList& list,
   return "conductor";
 }
 
-std::string upgraded_light(const std::string& type, ParameterList& list, const std::string& object,
-                           Deviations& deviations) {
+void upgrade_light(ParameterList& list, const std::string& object, Deviations& deviations) {
   make_number(list, "scale", object, deviations);
-  return type;
+  for (const std::string_view name : {"L", "I"}) {
+    Parameter* light = parameter_named(list, name);
+    if (!light || light->type != "blackbody" || light->numbers.size() != 2) continue;
+    const double factor = light->numbers.back();
+    light->numbers.pop_back();
+    add_number(list, "scale", 1);
+    if (Parameter* scale = parameter_named(list, "scale"); !scale->numbers.empty())
+      scale->numbers.front() *= factor;
+  }
 }
 
 std::string upgraded_medium(const std::string& type) {

@@ -11,9 +11,8 @@ namespace kaustik::pbrt {
 /// The type that the material has in v4; its parameters are renamed.
 std::string upgraded_material(const std::string& type, ParameterList& list,
                               const std::string& object, Deviations& deviations);
-/// The type of a light, and its `scale` as a number.
-std::string upgraded_light(const std::string& type, ParameterList& list, const std::string& object,
-                           Deviations& deviations);
+/// A light's `scale` is a number, and what its blackbody is multiplied by belongs to it.
+void upgrade_light(ParameterList& list, const std::string& object, Deviations& deviations);
 /// The type of a medium.
 std::string upgraded_medium(const std::string& type);
 

@@ -20,6 +20,21 @@ bool names_textures(const ParameterList& list) {
   });
 }
 
+/// What is alike in skies that differ in their portals alone.
+std::string sky_key(const ParameterList& list, const Transform& to_world) {
+  std::string key;
+  for (const Parameter& parameter : list.all()) {
+    if (parameter.name == "portal") continue;
+    key += fmt::format("{}\n{}\n", parameter.name, parameter.type);
+    for (size_t i = 0; i < parameter.number_count(); ++i)
+      key += fmt::format("{}\n", parameter.number(i));
+    for (const std::string& text : parameter.texts) key += text + '\n';
+  }
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) key += fmt::format("{} ", to_world.at(row, column));
+  return key;
+}
+
 }  // namespace
 
 World::World(SceneFiles& files, Deviations& deviations)
@@ -27,17 +42,19 @@ World::World(SceneFiles& files, Deviations& deviations)
       deviations_(deviations),
       spectra_(files, deviations),
       textures_(files, spectra_, deviations),
-      materials_(files, textures_, spectra_, deviations),
-      media_(files, spectra_, deviations),
+      materials_(files, textures_, spectra_, ids_, deviations),
+      media_(files, spectra_, ids_, deviations),
       textured_materials_{false} {}
 
 Owner World::owner(std::string object, const GraphicsState& state) const {
   return {std::move(object), state.colour_space, sequence_};
 }
 
-void World::add_defaults(ParameterList& list, const GraphicsState& state,
-                         AttributeKind kind) const {
-  if (const auto& defaults = state.attributes[size_t(kind)]) list.add_defaults(*defaults);
+void World::add_defaults(ParameterList& list, const GraphicsState& state, AttributeKind kind) {
+  const auto& defaults = state.attributes[size_t(kind)];
+  if (!defaults) return;
+  files_.spend(defaults->bytes(), list.place());
+  list.add_defaults(*defaults);
 }
 
 Transform World::resting(const MovingTransform& transform, const std::string& object,
@@ -45,13 +62,6 @@ Transform World::resting(const MovingTransform& transform, const std::string& ob
   if (transform.is_moving && !(transform.start == transform.end))
     deviations_.approximated(object, "it stands still, where its motion begins", place);
   return transform.start;
-}
-
-void World::tell_unused(const ParameterList& list, const std::string& object) {
-  list.visit_unused([&](const Parameter& parameter) {
-    deviations_.ignored(object, fmt::format("parameter {} has no effect", shown(parameter.name)),
-                        parameter.place);
-  });
 }
 
 void World::define_texture(const std::string& name, bool is_float, const std::string& type,
@@ -98,11 +108,17 @@ void World::define_medium(const std::string& name, const std::string& type, Para
 void World::add_light(const std::string& type, ParameterList list, const GraphicsState& state) {
   add_defaults(list, state, AttributeKind::light);
   const Owner by = owner(object_name("light", type), state);
-  const std::string meant = upgraded_light(type, list, by.object, deviations_);
+  upgrade_light(list, by.object, deviations_);
   const Transform to_world = resting(state.transform, by.object, list.place());
-  auto emitter = make_light({files_, textures_, spectra_, deviations_}, meant, list, by, to_world);
+  // Through several portals the same sky is seen.
+  if (list.has("portal") && !skies_.insert(sky_key(list, to_world)).second) {
+    deviations_.approximated(by.object, "of one sky with several portals the first counts",
+                             list.place());
+    return;
+  }
+  auto emitter = make_light({files_, textures_, spectra_, deviations_}, type, list, by, to_world);
   if (!emitter) return;
-  tell_unused(list, by.object);
+  list.tell_unused(by.object, deviations_);
   const bool has_place =
       emitter->type != "envmap" && emitter->type != "constant" && emitter->type != "directional";
   lights_.push_back(
@@ -134,7 +150,7 @@ void World::add_shape(const std::string& type, ParameterList list, const Graphic
     pending.lamps = tools.lamps;
     if (pending.shape) open_shapes().push_back(std::move(pending));
   }
-  tell_unused(list, object_name("shape", type));
+  list.tell_unused(object_name("shape", type), deviations_);
 }
 
 void World::add_curve_of(const ShapeTools& tools, PendingShape pending) {
@@ -151,6 +167,14 @@ void World::add_curve_of(const ShapeTools& tools, PendingShape pending) {
     shapes.push_back(std::move(pending));
   }
   add_curve(tools, *shapes.back().curves);
+}
+
+std::shared_ptr<const AreaLight> World::area_light(const std::string& type, ParameterList list,
+                                                   const GraphicsState& state) {
+  if (type.empty()) return nullptr;
+  add_defaults(list, state, AttributeKind::light);
+  upgrade_light(list, object_name("area light", type), deviations_);
+  return std::make_shared<const AreaLight>(AreaLight{type, std::move(list), state.colour_space});
 }
 
 void World::begin_object(const std::string& name, const Place& place) {

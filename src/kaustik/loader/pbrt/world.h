@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -29,6 +30,9 @@ class World {
   void define_medium(const std::string& name, const std::string& type, ParameterList list,
                      const GraphicsState& state);
   void add_light(const std::string& type, ParameterList list, const GraphicsState& state);
+  /// What shapes that follow shine as; null: they do not.
+  std::shared_ptr<const AreaLight> area_light(const std::string& type, ParameterList list,
+                                              const GraphicsState& state);
   void add_shape(const std::string& type, ParameterList list, const GraphicsState& state);
 
   void begin_object(const std::string& name, const Place& place);
@@ -61,10 +65,9 @@ class World {
   };
 
   Owner owner(std::string object, const GraphicsState& state) const;
-  void add_defaults(ParameterList& list, const GraphicsState& state, AttributeKind kind) const;
+  void add_defaults(ParameterList& list, const GraphicsState& state, AttributeKind kind);
   Transform resting(const MovingTransform& transform, const std::string& object,
                     const Place& place);
-  void tell_unused(const ParameterList& list, const std::string& object);
   bool may_be_textured(const MaterialReference& material) const;
   void add_curve_of(const ShapeTools& tools, PendingShape pending);
   Shapes& open_shapes() { return open_object_ ? *open_object_ : shapes_; }
@@ -81,6 +84,7 @@ class World {
   Deviations& deviations_;
   Spectra spectra_;
   Textures textures_;
+  Ids ids_;
   Materials materials_;
   Media media_;
   size_t sequence_ = 1;  ///< how many things were defined
@@ -96,6 +100,7 @@ class World {
     Place place;
   };
   std::vector<PendingLight> lights_;
+  std::set<std::string> skies_;  ///< sky_key() of those with portals
   std::map<const AreaLight*, std::shared_ptr<Object>> emitters_;
   std::map<std::tuple<const Object*, const Object*, double>, std::shared_ptr<Object>> masks_;
 };

@@ -37,12 +37,14 @@ std::shared_ptr<Object> World::emitter_of(const PendingShape& pending) {
     if (area && !has_even_parts(*pending.shape, pending.lamps))
       deviations_.approximated(by.object, "faces of unlike areas shine alike, as their mean",
                                pending.shape->place);
-    return make_area_light(tools, light, by, area);
+    auto emitter = make_area_light(tools, light, by, area);
+    light.parameters.tell_unused(by.object, deviations_);
+    return emitter;
   }
   std::shared_ptr<Object>& emitter = emitters_[&light];
   if (!emitter) {
     emitter = make_area_light(tools, light, by, std::nullopt);
-    tell_unused(light.parameters, by.object);
+    light.parameters.tell_unused(by.object, deviations_);
   }
   return emitter;
 }
@@ -116,7 +118,7 @@ void World::finish_instances(Object& scene) {
         continue;
       }
       auto group = described("shape", "shapegroup", instance.place);
-      group->id = instance.group;
+      group->id = ids_.unused(instance.group);
       for (PendingShape& pending : shapes->second)
         if (auto shape = finished(pending, true)) group->children.push_back({"", shape});
       if (group->children.empty()) continue;
