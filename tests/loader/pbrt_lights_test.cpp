@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kaustik/base/file.h"
+#include "tests/loader/nanovdb_bytes.h"
 #include "tests/loader/pbrt_support.h"
 
 namespace kaustik::pbrt {
@@ -261,12 +263,36 @@ TEST(PbrtMedia, GridsLieInTheirBox) {
                  "test.pbrt:1:75", "'density' has 1 numbers", "one for each cell");
 }
 
+/// The file's box of 8 × 8 × 16 voxels of 0.5 m with a margin of one, scaled by the scene.
+TEST(PbrtMedia, FilesOfNanoVdbAreGrids) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "smoke.nvdb", nano::file_of(nano::small_grid(), nano::Codec::zip));
+  const Description scene = parse_scene_of_pbrt(R"(WorldBegin
+    Scale 2 2 2
+    MakeNamedMedium "smoke" "string type" "nanovdb" "string filename" "smoke.nvdb"
+      "rgb sigma_a" [1 1 1] "rgb sigma_s" [3 3 3] "float scale" 2
+    MediumInterface "smoke" "" Shape "sphere")",
+                                                false, folder / "");
+  const Object& smoke = child(only(scene, "shape"), "interior");
+  EXPECT_EQ(value<double>(smoke, "scale"), 2);
+  expect_rgb(value<Rgb>(smoke, "albedo"), .75, .75, .75);
+  const Object& grid = child(smoke, "sigma_t");
+  const std::vector<float> samples = numbers_in<float>(grid, "data");
+  ASSERT_EQ(samples.size(), 10u * 10 * 18);
+  // Voxel (1, 2, 3) is 321.
+  EXPECT_EQ(samples[2 + 10 * (3 + 10 * 4)], 4 * 321);
+  expect_same(value<Transform>(grid, "to_world"),
+              Transform::scale({2, 2, 2}) * Transform::translate({1, 2, 3}) *
+                  Transform::scale({.5, .5, .5}) * Transform::translate({-1.5, -1.5, -1.5}) *
+                  Transform::scale({10, 10, 18}));
+}
+
 TEST(PbrtMedia, TheOthersAreTold) {
   const Description scene = parse_scene_of_pbrt(R"(WorldBegin
     MakeNamedMedium "a" "string type" "nanovdb" "string filename" "x.nvdb"
     MakeNamedMedium "b" "string type" "cloud"
     MediumInterface "a" "b" Shape "sphere")");
-  EXPECT_TRUE(is_missing(scene, "'a'", "NanoVDB"));
+  EXPECT_TRUE(is_missing(scene, "'a'", "x.nvdb"));
   EXPECT_TRUE(is_ignored(scene, "'b'", "no medium 'cloud'"));
   EXPECT_EQ(only(scene, "shape").children.size(), 1u);
 }

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/nanovdb_file.h"
 #include "kaustik/loader/object_parts.h"
 
 namespace kaustik::pbrt {
 namespace {
+
+/// Of a file of NanoVDB, and what its dense grid may take whatever the file's size.
+constexpr size_t most_nanovdb_bytes = size_t{8} << 30, always_kept_bytes = size_t{64} << 20;
 
 /// Samples along x, y and z. Throws Error(input) unless there are as many numbers.
 std::array<size_t, 3> grid_size(const ParameterList& list, const Parameter& samples,
@@ -131,15 +135,11 @@ std::shared_ptr<Object> Media::make(const MediumDefinition& definition) {
   if (definition.type == "homogeneous") return make_homogeneous(definition);
   if (definition.type == "uniformgrid") return make_grid(definition);
   if (definition.type == "rgbgrid") return make_colour_grid(definition);
-  const bool is_nanovdb = definition.type == "nanovdb";
-  const std::string what =
-      is_nanovdb
-          ? std::string("files of NanoVDB are not read: space is empty there")
-          : fmt::format("there is no medium {}: space is empty there", shown(definition.type));
-  if (is_nanovdb)
-    deviations_.missing(definition.owner.object, what, list.place());
-  else
-    deviations_.ignored(definition.owner.object, what, list.place());
+  if (definition.type == "nanovdb") return make_nanovdb(definition);
+  deviations_.ignored(
+      definition.owner.object,
+      fmt::format("there is no medium {}: space is empty there", shown(definition.type)),
+      list.place());
   list.accept({"filename", "gridname", "density", "wispiness", "frequency", "sigma_a", "sigma_s",
                "scale", "g", "p0", "p1", "preset"});
   return nullptr;
@@ -188,12 +188,16 @@ std::shared_ptr<Object> Media::make_homogeneous(const MediumDefinition& definiti
 }
 
 std::shared_ptr<Object> Media::grid_volume(const MediumDefinition& definition,
-                                           std::vector<size_t> extents,
-                                           std::vector<float> samples) {
-  const ParameterList& list = definition.parameters;
-  files_.spend(samples.size() * sizeof(float), list.place());
-  auto volume = described("volume", "gridvolume", list.place());
+                                           std::vector<size_t> extents, std::vector<float> samples,
+                                           const Transform& to_world) {
+  auto volume = described("volume", "gridvolume", definition.parameters.place());
   set(*volume, "data", Value(Array::of<float>(std::move(extents), std::move(samples))));
+  set(*volume, "to_world", to_world);
+  return volume;
+}
+
+Transform Media::box_to_world(const MediumDefinition& definition) {
+  const ParameterList& list = definition.parameters;
   Vec3d low = list.point("p0").value_or(Vec3d(0, 0, 0));
   Vec3d high = list.point("p1").value_or(Vec3d(1, 1, 1));
   for (int axis = 0; axis < 3; ++axis)
@@ -202,9 +206,64 @@ std::shared_ptr<Object> Media::grid_volume(const MediumDefinition& definition,
   if (!(size.x > 0 && size.y > 0 && size.z > 0))
     throw Error(ErrorKind::input, "the grid's box has no volume",
                 "let p0 and p1 differ in x, y and z", list.place_of("p1"));
-  set(*volume, "to_world",
-      definition.to_world * Transform::translate(low) * Transform::scale(size));
-  return volume;
+  return definition.to_world * Transform::translate(low) * Transform::scale(size);
+}
+
+Media::Coefficients Media::coefficients(const MediumDefinition& definition) {
+  const Rgb scattering = coefficient(definition, "sigma_s");
+  return {scattering, sum(coefficient(definition, "sigma_a"), scattering)};
+}
+
+template <typename Number>
+std::shared_ptr<Object> Media::with_density(const MediumDefinition& definition,
+                                            const Coefficients& coefficients,
+                                            std::span<const Number> density,
+                                            const std::array<size_t, 3>& size,
+                                            const Transform& to_world) {
+  const ParameterList& list = definition.parameters;
+  const size_t components = coefficients.components();
+  std::vector<float> samples;
+  samples.reserve(density.size() * components);
+  const Rgb& extinction = coefficients.extinction;
+  const double parts[3] = {extinction.r, extinction.g, extinction.b};
+  for (const Number value : density)
+    for (size_t i = 0; i < components; ++i)
+      samples.push_back(float(std::max(double(value), 0.0) * parts[i]));
+  std::vector<size_t> extents = {size[2], size[1], size[0]};
+  if (components > 1) extents.push_back(components);
+  auto medium = described("medium", "heterogeneous", list.place());
+  set(*medium, "albedo", albedo_of(coefficients.scattering, extinction));
+  set(*medium, "scale", std::max(list.number("scale", 1), 0.0));
+  hold(*medium, "sigma_t",
+       grid_volume(definition, std::move(extents), std::move(samples), to_world));
+  return with_phase(medium, definition);
+}
+
+std::shared_ptr<Object> Media::make_nanovdb(const MediumDefinition& definition) {
+  const ParameterList& list = definition.parameters;
+  const std::string file = list.text("filename"), grid = list.text("gridname", "density");
+  const auto path = file.empty() ? std::nullopt : files_.find(file, list.place());
+  list.accept({"temperaturename"});
+  if (!path) {
+    deviations_.missing(definition.owner.object,
+                        fmt::format("there is no file {}: space is empty there", shown(file)),
+                        list.place());
+    return nullptr;
+  }
+  const std::vector<uint8_t> bytes = files_.bytes_of(*path, most_nanovdb_bytes, list.place());
+  const Coefficients coefficients = this->coefficients(definition);
+  const size_t most_samples =
+      (always_kept_bytes + 4 * bytes.size()) / (coefficients.components() * sizeof(float));
+  const DenseGrid dense = read_nanovdb(bytes, grid, most_samples, place_in(path->string()));
+  if (dense.voxels_per_sample > 1)
+    deviations_.approximated(
+        definition.owner.object,
+        fmt::format("its grid is {0} times as coarse along each axis as in the file, whose box is "
+                    "mostly empty",
+                    dense.voxels_per_sample),
+        list.place_of("filename"));
+  return with_density(definition, coefficients, std::span<const float>(dense.samples), dense.size,
+                      definition.to_world * dense.to_world);
 }
 
 std::shared_ptr<Object> Media::make_grid(const MediumDefinition& definition) {
@@ -214,23 +273,10 @@ std::shared_ptr<Object> Media::make_grid(const MediumDefinition& definition) {
     throw Error(ErrorKind::input, fmt::format("{} has no density", definition.owner.object),
                 "give it \"float density\" [ … ]", list.place());
   const std::array<size_t, 3> size = grid_size(list, *density, 1);
-  const Rgb scattering = coefficient(definition, "sigma_s");
-  const Rgb extinction = sum(coefficient(definition, "sigma_a"), scattering);
-  const bool is_grey = extinction.r == extinction.g && extinction.r == extinction.b;
-  const size_t components = is_grey ? 1 : 3;
-  std::vector<float> samples;
-  samples.reserve(density->number_count() * components);
-  const double parts[3] = {extinction.r, extinction.g, extinction.b};
-  for (const double value : density->numbers)
-    for (size_t i = 0; i < components; ++i)
-      samples.push_back(float(std::max(value, 0.0) * parts[i]));
-  std::vector<size_t> extents = {size[2], size[1], size[0]};
-  if (!is_grey) extents.push_back(3);
-  auto medium = described("medium", "heterogeneous", list.place());
-  set(*medium, "albedo", albedo_of(scattering, extinction));
-  set(*medium, "scale", std::max(list.number("scale", 1), 0.0));
-  hold(*medium, "sigma_t", grid_volume(definition, std::move(extents), std::move(samples)));
-  return with_phase(medium, definition);
+  const Coefficients coefficients = this->coefficients(definition);
+  files_.spend(density->number_count() * coefficients.components() * sizeof(float), list.place());
+  return with_density(definition, coefficients, std::span<const double>(density->numbers), size,
+                      box_to_world(definition));
 }
 
 std::shared_ptr<Object> Media::make_colour_grid(const MediumDefinition& definition) {
@@ -253,11 +299,13 @@ std::shared_ptr<Object> Media::make_colour_grid(const MediumDefinition& definiti
     extinctions.push_back(float(a + s));
     albedos.push_back(float(share(s, a + s)));
   }
+  files_.spend((extinctions.size() + albedos.size()) * sizeof(float), list.place());
   const std::vector<size_t> extents = {size[2], size[1], size[0], 3};
+  const Transform to_world = box_to_world(definition);
   auto medium = described("medium", "heterogeneous", list.place());
   set(*medium, "scale", std::max(list.number("scale", 1), 0.0));
-  hold(*medium, "sigma_t", grid_volume(definition, extents, std::move(extinctions)));
-  hold(*medium, "albedo", grid_volume(definition, extents, std::move(albedos)));
+  hold(*medium, "sigma_t", grid_volume(definition, extents, std::move(extinctions), to_world));
+  hold(*medium, "albedo", grid_volume(definition, extents, std::move(albedos), to_world));
   return with_phase(medium, definition);
 }
 

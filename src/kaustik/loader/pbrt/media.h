@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "kaustik/base/transform.h"
@@ -41,9 +43,28 @@ class Media {
   std::shared_ptr<Object> make_colour_grid(const MediumDefinition& definition);
   std::shared_ptr<Object> with_phase(std::shared_ptr<Object> medium,
                                      const MediumDefinition& definition);
+  std::shared_ptr<Object> make_nanovdb(const MediumDefinition& definition);
   Rgb coefficient(const MediumDefinition& definition, const char* name);
+  /// sigma_s, and sigma_s + sigma_a.
+  struct Coefficients {
+    Rgb scattering, extinction;
+    bool is_grey() const { return extinction.r == extinction.g && extinction.r == extinction.b; }
+    size_t components() const { return is_grey() ? 1 : 3; }
+  };
+  Coefficients coefficients(const MediumDefinition& definition);
+  /// What scatters by the coefficients times a density, x running fastest, in cells that fill the
+  /// box to which the unit cube goes.
+  template <typename Number>
+  std::shared_ptr<Object> with_density(const MediumDefinition& definition,
+                                       const Coefficients& coefficients,
+                                       std::span<const Number> density,
+                                       const std::array<size_t, 3>& size,
+                                       const Transform& to_world);
+  /// Of the unit cube to the box from p0 to p1.
+  static Transform box_to_world(const MediumDefinition& definition);
   std::shared_ptr<Object> grid_volume(const MediumDefinition& definition,
-                                      std::vector<size_t> extents, std::vector<float> samples);
+                                      std::vector<size_t> extents, std::vector<float> samples,
+                                      const Transform& to_world);
 
   SceneFiles& files_;
   Spectra& spectra_;
