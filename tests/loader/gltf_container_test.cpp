@@ -165,14 +165,11 @@ TEST(GltfExtensions, ThoseThatAreRequiredAndUnknownAreErrors) {
   const std::string rest = ",\"extensionsUsed\":[\"VENDOR_x\"]";
   EXPECT_TRUE(has_deviation(parse_gltf_text(triangle_buffer().as_json(one_mesh + rest)),
                             DeviationKind::ignored, "VENDOR_x"));
-  for (const char* name : {"VENDOR_x", "KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-    const auto problems = problems_of([&] {
-      parse_gltf_text(
-          triangle_buffer().as_json(one_mesh + ",\"extensionsRequired\":[\"" + name + "\"]"));
-    });
-    EXPECT_NE(problems[0].message.find(name), std::string::npos);
-    EXPECT_FALSE(problems[0].remedy.empty());
-  }
+  const auto problems = problems_of([&] {
+    parse_gltf_text(triangle_buffer().as_json(one_mesh + ",\"extensionsRequired\":[\"VENDOR_x\"]"));
+  });
+  EXPECT_NE(problems[0].message.find("VENDOR_x"), std::string::npos);
+  EXPECT_FALSE(problems[0].remedy.empty());
 }
 
 TEST(GltfExtensions, StrictReadingRefusesDeviations) {

@@ -135,10 +135,15 @@ void skin(File& file, Accessors& accessors, const JsonValue& primitive, bool is_
 
 }  // namespace
 
-Deformation deformation_of(File& file, Accessors& accessors, const JsonValue& node,
-                           const JsonValue& mesh, const std::vector<PlacedNode>& placed) {
+Deformation deformation_of(File& file, Accessors& accessors, const PlacedNode& placed_node,
+                           const JsonValue& mesh, const Pose& pose,
+                           const std::vector<PlacedNode>& placed) {
+  const JsonValue& node = *placed_node.node;
   Deformation deformation;
-  deformation.weights = weights_of(file, node.find("weights") ? node : mesh);
+  if (const std::vector<double>* moved = pose.find(placed_node.index, Animated::weights))
+    deformation.weights = *moved;
+  else
+    deformation.weights = weights_of(file, node.find("weights") ? node : mesh);
   if (std::all_of(deformation.weights.begin(), deformation.weights.end(),
                   [](double weight) { return weight == 0; }))
     deformation.weights.clear();

@@ -49,14 +49,15 @@ void Instances::count_uses(const std::vector<PlacedNode>& placed) {
   }
 }
 
-Meshes::Shapes Instances::shapes_of(const PlacedNode& node, const std::vector<PlacedNode>& placed) {
+Meshes::Shapes Instances::shapes_of(const PlacedNode& node, const Pose& pose,
+                                    const std::vector<PlacedNode>& placed) {
   Meshes::Shapes result;
   const auto mesh = file_.count(*node.node, "mesh");
   if (!mesh) return result;
   const JsonValue& object = file_.item("meshes", *mesh, *node.node);
   Deformation deformation;
   try {
-    deformation = deformation_of(file_, accessors_, *node.node, object, placed);
+    deformation = deformation_of(file_, accessors_, node, object, pose, placed);
   } catch (const MissingData& missing) {
     deviations_.missing(file_.name_of("node", *node.node, node.index),
                         missing.what + ": its mesh is shown at rest", file_.place(*node.node));

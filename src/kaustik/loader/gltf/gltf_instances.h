@@ -18,7 +18,8 @@ class Instances {
   void count_uses(const std::vector<PlacedNode>& placed);
 
   /// The shapes of a node, in the world.
-  Meshes::Shapes shapes_of(const PlacedNode& node, const std::vector<PlacedNode>& placed);
+  Meshes::Shapes shapes_of(const PlacedNode& node, const Pose& pose,
+                           const std::vector<PlacedNode>& placed);
 
   /// Multiplies the emission of all shapes that were made so far.
   void scale_emission(double factor);

@@ -37,8 +37,8 @@ class SceneReader {
 
   Description read() {
     check_extensions(file_, deviations_);
-    tell_of_animations();
-    const std::vector<PlacedNode> placed = placed_nodes(file_, deviations_);
+    const Pose pose = pose_of(file_, accessors_, options_, deviations_);
+    const std::vector<PlacedNode> placed = placed_nodes(file_, pose, deviations_);
     instances_.count_uses(placed);
     bool has_lamps = false;
     for (const PlacedNode& node : placed) {
@@ -48,7 +48,8 @@ class SceneReader {
         put(scene(), "", std::move(lamp));
         has_lamps = true;
       }
-      for (auto& shape : instances_.shapes_of(node, placed)) put(scene(), "", std::move(shape));
+      for (auto& shape : instances_.shapes_of(node, pose, placed))
+        put(scene(), "", std::move(shape));
     }
     Framing framing(description_, deviations_);
     if (!has_lamps && !materials_.has_bright_emission()) light_studio(framing);
@@ -75,14 +76,6 @@ class SceneReader {
           file_.place());
     }
     framing.add_studio_light();
-  }
-
-  void tell_of_animations() {
-    const JsonValue::Items& animations = file_.list("animations");
-    for (size_t i = 0; i < animations.size(); ++i)
-      deviations_.ignored(file_.name_of("animation", animations[i], i),
-                          "nothing moves: nodes stand as the file has them",
-                          file_.place(animations[i]));
   }
 
   Options options_;
