@@ -138,7 +138,7 @@ std::shared_ptr<const Array> Meshes::attribute(const Part& part, const std::stri
   if (!index) return nullptr;
   if (file_.extension(part.primitive, "KHR_draco_mesh_compression") &&
       !file_.item("accessors", *index, part.attributes).find("bufferView"))
-    throw MissingData{"it is packed by KHR_draco_mesh_compression"};
+    throw MissingData{"it is packed by KHR_draco_mesh_compression; export it without compression"};
   const AccessorShape shape = accessors_.shape(*index, part.attributes);
   if (shape.count != vertices || shape.components < least || shape.components > most)
     file_.fail(*part.attributes.find(name),

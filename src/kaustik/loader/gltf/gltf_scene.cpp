@@ -51,9 +51,8 @@ class SceneReader {
       for (auto& shape : instances_.shapes_of(node, pose, placed))
         put(scene(), "", std::move(shape));
     }
-    Framing framing(description_, deviations_);
-    if (!has_lamps && !materials_.has_bright_emission()) light_studio(framing);
-    framing.add_missing_camera();
+    const bool needs_light = !has_lamps && !materials_.has_bright_emission();
+    if (needs_light || camera_ids_.empty()) frame(needs_light);
     description_.sources = file_.sources();
     deviations_.finish(description_, is_strict_);
     description_.is_strict = is_strict_;
@@ -62,6 +61,12 @@ class SceneReader {
 
  private:
   Object& scene() { return *description_.scene; }
+
+  void frame(bool needs_light) {
+    Framing framing(description_, deviations_);
+    if (needs_light) light_studio(framing);
+    framing.add_missing_camera();
+  }
 
   /// Such files mean emission of 1 to be as bright as white surfaces.
   void light_studio(Framing& framing) {
