@@ -66,8 +66,9 @@ std::vector<double> on_spline(const Track& track, size_t key, double share, doub
 
 /// Before the first key and after the last one it stands still.
 std::vector<double> value_at(const Track& track, double time) {
-  size_t next = 0;
-  while (next < track.keys() && !(double(track.time(next)) > time)) ++next;
+  const std::span<const float> times = floats_in(*track.times);
+  const auto next =
+      size_t(std::upper_bound(times.begin(), times.end(), float(time)) - times.begin());
   if (next == 0 || next == track.keys() || track.is_stepped) {
     const auto values = track.at(next == 0 ? 0 : next - 1);
     return {values.begin(), values.end()};

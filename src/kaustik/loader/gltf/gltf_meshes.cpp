@@ -175,6 +175,7 @@ bool Meshes::needs_opacity(const Part& part) const {
 void Meshes::give_colors(const Part& part, size_t vertices, Object& shape, SurfaceUse& use) {
   const auto given = attribute(part, "COLOR_0", vertices, 3, 4);
   if (!given) return;
+  file_.spend(vertices, part.primitive);  // time, for primitives may share their colours
   const std::span<const float> numbers = floats_in(*given);
   const size_t components = given->extents()[1];
   const bool is_within = std::all_of(numbers.begin(), numbers.end(),

@@ -39,7 +39,7 @@ class SceneReader {
     check_extensions(file_, deviations_);
     const Pose pose = pose_of(file_, accessors_, options_, deviations_);
     const std::vector<PlacedNode> placed = placed_nodes(file_, pose, deviations_);
-    instances_.count_uses(placed);
+    instances_.take_nodes(placed);
     bool has_lamps = false;
     for (const PlacedNode& node : placed) {
       if (!node.is_there) continue;
@@ -48,8 +48,7 @@ class SceneReader {
         put(scene(), "", std::move(lamp));
         has_lamps = true;
       }
-      for (auto& shape : instances_.shapes_of(node, pose, placed))
-        put(scene(), "", std::move(shape));
+      for (auto& shape : instances_.shapes_of(node, pose)) put(scene(), "", std::move(shape));
     }
     const bool needs_light = !has_lamps && !materials_.has_bright_emission();
     if (needs_light || camera_ids_.empty()) frame(needs_light);
