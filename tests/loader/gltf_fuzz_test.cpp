@@ -22,6 +22,9 @@ const std::string& rest() {
 "alphaMode":"MASK","emissiveFactor":[1,1,1]},{"extensions":{"KHR_materials_transmission":
 {"transmissionFactor":1},"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,
 "attenuationColor":[0.5,1,1]},"KHR_materials_sheen":{"sheenColorFactor":[1,1,1]}}}],
+"animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},{"sampler":1,
+"target":{"node":2,"path":"weights"}}],"samplers":[{"input":5,"output":0},{"input":5,"output":5,
+"interpolation":"STEP"}]}],
 "textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071}],"images":[{"bufferView":4}],
 "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":5}]}})";
   return text;
@@ -34,13 +37,16 @@ GltfBuffer buffer() {
   made.add<uint8_t>({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4", 4);
   made.add<float>({1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, 0, 0}, "VEC4", 4);
   made.add<float>({0, 1, 1, 1, 0, 0}, "VEC2", 2);
+  made.add<float>({0, 1, 2}, "SCALAR", 1);
   return made;
 }
 
 /// False if the text was refused as it should be.
 bool survives(const std::string& text) {
+  LoadOptions options;
+  options.definitions = {{"gltf.time", "0.5"}};
   try {
-    return parse_gltf_text(text, {}, "/nonexistent").scene != nullptr;
+    return parse_gltf_text(text, options, "/nonexistent").scene != nullptr;
   } catch (const Error& error) {
     EXPECT_FALSE(error.problems().empty());
     for (const Problem& problem : error.problems()) {

@@ -63,6 +63,18 @@ TEST(GltfTextures, SamplersAndTransforms) {
   EXPECT_LT(length(to_uv.point(Vec3f(0, 1, 0)) - Vec3f(4.5, 0.25, 0)), 1e-6f);
 }
 
+/// The extension's example: the lower left quarter of the picture, turned clockwise.
+TEST(GltfTextures, TransformsOfTheSpecificationsExample) {
+  const GltfMaterial material(
+      R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{
+      "KHR_texture_transform":{"offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5]}}}})",
+      picture);
+  const auto& to_uv = value<Transform>(child_named(material.core(), "base_color"), "to_uv");
+  EXPECT_LT(length(to_uv.point(Vec3f(0, 0, 0)) - Vec3f(0, 1, 0)), 1e-6f);
+  EXPECT_LT(length(to_uv.point(Vec3f(1, 0, 0)) - Vec3f(0, 0.5, 0)), 1e-6f);
+  EXPECT_LT(length(to_uv.point(Vec3f(1, 1, 0)) - Vec3f(0.5, 0.5, 0)), 1e-6f);
+}
+
 TEST(GltfTextures, OtherCoordinatesAreTakenFromTheMesh) {
   GltfBuffer buffer;
   buffer.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
@@ -147,6 +159,16 @@ TEST(GltfGlass, IsAPaneByTheLetter) {
   EXPECT_EQ(GltfMaterial(glass(""), "", solid).bsdf().type, "dielectric");
 }
 
+TEST(GltfGlass, IsNoLessForExtensionsThatDoNothing) {
+  const std::string nothing =
+      R"(,"KHR_materials_specular":{"specularFactor":1},"KHR_materials_clearcoat":{"clearcoatFactor":0},
+      "KHR_materials_sheen":{"sheenColorFactor":[0,0,0]})";
+  EXPECT_EQ(GltfMaterial(glass(nothing)).bsdf().type, "thindielectric");
+  EXPECT_EQ(
+      GltfMaterial(glass(R"(,"KHR_materials_clearcoat":{"clearcoatFactor":0.5})")).bsdf().type,
+      "openpbr");
+}
+
 TEST(GltfGlass, WithAThicknessIsABody) {
   const std::string volume =
       R"(,"KHR_materials_ior":{"ior":1.7},"KHR_materials_volume":{"thicknessFactor":0.1,
@@ -214,9 +236,59 @@ TEST(GltfMaterials, LayersAreThoseOfOpenPbr) {
   EXPECT_EQ(value<double>(core, "coat_ior"), 1.5);
   EXPECT_EQ(value<double>(core, "fuzz_weight"), 1);
   EXPECT_EQ(value<Rgb>(core, "fuzz_color"), (Rgb{1, 0, 0.5}));
-  EXPECT_EQ(value<double>(core, "fuzz_roughness"), 0.75);
+  EXPECT_EQ(value<double>(core, "fuzz_roughness"), 0.5625);  // the width, in glTF the square
   EXPECT_EQ(value<double>(core, "specular_weight"), 0.5);
   EXPECT_EQ(value<Rgb>(core, "specular_color"), (Rgb{1, 0.5, 0}));
+}
+
+double specular_ior(const std::string& extensions) {
+  return value<double>(
+      GltfMaterial(R"("pbrMetallicRoughness":{"metallicFactor":0},"extensions":{)" + extensions +
+                   "}")
+          .core(),
+      "specular_ior");
+}
+/// The share of light that it reflects straight on.
+double normal_reflectance(const std::string& extensions) {
+  const double ior = specular_ior(extensions);
+  return (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1));
+}
+
+TEST(GltfMaterials, SpecularFactorsSetWhatIsReflectedStraightOn) {
+  EXPECT_NEAR(normal_reflectance(""), 0.04, 1e-12);
+  EXPECT_NEAR(normal_reflectance(R"("KHR_materials_ior":{"ior":3})"), 0.25, 1e-12);
+  EXPECT_EQ(specular_ior(R"("KHR_materials_specular":{"specularFactor":0})"), 1);
+  const std::string twice = R"("KHR_materials_specular":{"specularColorFactor":[2,1,0]})";
+  EXPECT_NEAR(normal_reflectance(twice), 0.08, 1e-12);
+  EXPECT_EQ(
+      value<Rgb>(GltfMaterial(R"("pbrMetallicRoughness":{"metallicFactor":0},"extensions":{)" +
+                              twice + "}")
+                     .core(),
+                 "specular_color"),
+      (Rgb{1, 0.5, 0}));
+  // An index of 0 stands for all light, of which the colour leaves its share.
+  EXPECT_NEAR(normal_reflectance(
+                  R"("KHR_materials_ior":{"ior":0},"KHR_materials_specular":{"specularColorFactor":
+                     [0.5,0.5,0.5]})"),
+              0.5, 1e-12);
+}
+
+TEST(GltfMaterials, BeneathAFullCoatTheBaseReflectsAsInAir) {
+  const double bare = specular_ior(R"("KHR_materials_ior":{"ior":1.6})");
+  const double coated = specular_ior(
+      R"("KHR_materials_ior":{"ior":1.6},"KHR_materials_clearcoat":{"clearcoatFactor":1})");
+  EXPECT_NEAR(coated / 1.5, bare, 1e-12);
+}
+
+TEST(GltfMaterials, SheenTakesFromTheBaseWhatItsColourReflects) {
+  const GltfMaterial material(R"("extensions":{"KHR_materials_sheen":{"sheenColorFactor":
+      [0.2,0.1,0.05],"sheenRoughnessFactor":0.5}})");
+  EXPECT_EQ(value<double>(material.core(), "fuzz_weight"), 0.2);
+  EXPECT_EQ(value<Rgb>(material.core(), "fuzz_color"), (Rgb{1, 0.5, 0.25}));
+  EXPECT_EQ(value<double>(material.core(), "fuzz_roughness"), 0.25);
+  EXPECT_EQ(find_property(GltfMaterial(R"("extensions":{"KHR_materials_sheen":{}})").core(),
+                          "fuzz_weight"),
+            nullptr);
 }
 
 TEST(GltfMaterials, AnisotropyKeepsBothSlopes) {
@@ -247,6 +319,30 @@ TEST(GltfMaterials, SpecularAndGlossinessReflectTheirColourStraightOn) {
   EXPECT_NEAR(std::pow((ior - 1) / (ior + 1), 2), 0.16, 1e-12);
   EXPECT_EQ(value<Rgb>(material.core(), "specular_color"), (Rgb{1, 0.5, 0.25}));
   EXPECT_EQ(value<double>(material.core(), "specular_roughness"), 0.25);
+}
+
+TEST(GltfMaterials, SpecularAndGlossinessGoFirst) {
+  const std::string archived =
+      R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.5,0.25,0,0.5]}})";
+  const std::string plain = R"("pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1])";
+  const GltfMaterial both(plain + R"(},"alphaMode":"BLEND",)" + archived);
+  EXPECT_EQ(value<Rgb>(both.core(), "base_color"), (Rgb{0.5, 0.25, 0}));
+  EXPECT_EQ(value<double>(both.bsdf(), "opacity"), 0.5);
+  // But where the other model has its roughness as a picture.
+  const GltfMaterial picture_of_it(
+      plain + R"(,"metallicRoughnessTexture":{"index":0}},)" + archived, picture);
+  EXPECT_EQ(value<Rgb>(picture_of_it.core(), "base_color"), (Rgb{1, 1, 1}));
+}
+
+TEST(GltfMaterials, ACutoffBeyondOneLeavesNothing) {
+  const GltfMaterial material(R"("alphaMode":"MASK","alphaCutoff":1.5)");
+  EXPECT_EQ(value<double>(material.bsdf(), "opacity"), 0);
+  EXPECT_EQ(find_property(material.bsdf(), "cutoff"), nullptr);
+}
+
+TEST(GltfMaterials, WithoutItsShareASheetIsOpaque) {
+  EXPECT_EQ(GltfMaterial(R"("extensions":{"KHR_materials_diffuse_transmission":{}})").bsdf().type,
+            "twosided");
 }
 
 TEST(GltfMaterials, WhatIsNotRenderedIsTold) {

@@ -179,6 +179,64 @@ TEST(GltfMeshes, JointsAndTargetsMoveThem) {
             (std::vector<float>{0, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5}));
 }
 
+/// Two keys: after two seconds one unit further, and half a turn about z.
+std::string animated(const std::string& interpolation, const std::string& path, int output) {
+  GltfBuffer buffer;
+  buffer.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+  buffer.add<float>({1, 3}, "SCALAR", 1);
+  buffer.add<float>({0, 0, 0, 8, 0, 0}, "VEC3", 3);
+  buffer.add<float>({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4", 4);
+  // Cubic: flat tangents, but for the first one that leaves.
+  buffer.add<float>({0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0, 0}, "VEC3", 3);
+  buffer.add<float>({0, 0.5}, "SCALAR", 1);
+  return buffer.as_json(
+      R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},
+         "targets":[{"POSITION":0}]}]}],"animations":[{"name":"rest"},{"name":"go","channels":[{
+         "sampler":0,"target":{"node":0,"path":")" +
+      path + R"("}}],"samplers":[{"input":1,"interpolation":")" + interpolation +
+      "\",\"output\":" + std::to_string(output) + "}]}]");
+}
+Description at_time(const std::string& text, const std::string& time) {
+  LoadOptions options;
+  options.definitions = {{"gltf.animation", "go"}, {"gltf.time", time}};
+  return parse_gltf_text(text, options);
+}
+
+TEST(GltfAnimations, StandAtATime) {
+  const auto moved = [](const std::string& interpolation, int output, const std::string& time) {
+    const Description description = at_time(animated(interpolation, "translation", output), time);
+    const auto* to_world = value_in<Transform>(first_shape(description), "to_world");
+    return to_world ? double(to_world->point(Vec3f(0, 0, 0)).x) : 0.0;
+  };
+  EXPECT_EQ(moved("LINEAR", 2, "0"), 0);
+  EXPECT_NEAR(moved("LINEAR", 2, "1.5"), 2, 1e-6);
+  EXPECT_EQ(moved("LINEAR", 2, "7"), 8);
+  EXPECT_EQ(moved("STEP", 2, "2.9"), 0);
+  EXPECT_EQ(moved("STEP", 2, "3"), 8);
+  // Hermite's spline half way: (p0 + p1)/2 + seconds (m0 − m1)/8.
+  EXPECT_NEAR(moved("CUBICSPLINE", 4, "2"), 4 + 2 * 4 / 8.0, 1e-6);
+  expect_near(placed(at_time(animated("LINEAR", "rotation", 3), "2")).point(Vec3f(1, 0, 0)),
+              Vec3f(0, 1, 0));
+  EXPECT_EQ(floats_of(first_shape(at_time(animated("LINEAR", "weights", 5), "2")), "positions")[3],
+            1.25f);
+}
+
+TEST(GltfAnimations, MustBeThere) {
+  LoadOptions options;
+  options.definitions = {{"gltf.animation", "goo"}};
+  EXPECT_NE(
+      problems_of([&] { parse_gltf_text(animated("LINEAR", "scale", 2), options); })[0].remedy.find(
+          "go"),
+      std::string::npos);
+  options.definitions = {{"gltf.time", "1"}};
+  EXPECT_NE(problems_of([&] { parse_gltf_text(one_triangle(), options); })[0].message.find(
+                "no animations"),
+            std::string::npos);
+  EXPECT_NE(problems_of([&] { at_time(animated("LINEAR", "rotation", 2), "1"); })[0].message.find(
+                "does not go with"),
+            std::string::npos);
+}
+
 TEST(GltfCameras, LookAlongMinusZ) {
   const Description description = parse_gltf_text(one_triangle(
       R"("cameras":[{"type":"perspective","name":"lens","perspective":{"yfov":1,"aspectRatio":2,

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "kaustik/base/error.h"
@@ -20,6 +22,29 @@ namespace {
 
 constexpr int64_t film_side = 768;
 constexpr double lens_degrees = 40;
+
+/// Of the points that are finite.
+template <typename T>
+Bounds3f of_points(std::span<const T> numbers) {
+  // What is not finite makes the sum no number.
+  Vec3f low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  float sum = 0;
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3)
+    for (int k = 0; k < 3; ++k) {
+      const auto number = float(numbers[i + size_t(k)]);
+      low[k] = number < low[k] ? number : low[k];
+      high[k] = number > high[k] ? number : high[k];
+      sum += number * 0;
+    }
+  if (numbers.size() < 3) return {};
+  if (sum == 0) return {low, high};
+  Bounds3f bounds;
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    const Vec3f p{float(numbers[i]), float(numbers[i + 1]), float(numbers[i + 2])};
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) bounds.extendBy(p);
+  }
+  return bounds;
+}
 
 /// Boxes of objects in their own space, each found once.
 class BoundsFinder {
@@ -86,14 +111,8 @@ class BoundsFinder {
   Bounds3f of_positions(const Array& positions) {
     const auto [entry, is_new] = meshes_.try_emplace(&positions);
     if (!is_new) return entry->second;
-    Bounds3f bounds;
-    positions.visit([&](auto values) {
-      for (size_t i = 0; i + 2 < values.size(); i += 3) {
-        const Vec3f p{float(values[i]), float(values[i + 1]), float(values[i + 2])};
-        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) bounds.extendBy(p);
-      }
-    });
-    return entry->second = bounds;
+    positions.visit([&](auto values) { entry->second = of_points(values); });
+    return entry->second;
   }
 
   std::map<const Object*, Bounds3f> groups_;

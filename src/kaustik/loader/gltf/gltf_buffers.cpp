@@ -9,6 +9,7 @@
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
 #include "kaustik/loader/gltf/gltf_file.h"
+#include "kaustik/loader/gltf/gltf_meshopt.h"
 
 namespace kaustik::gltf {
 namespace {
@@ -136,24 +137,57 @@ const Bytes& File::buffer(size_t index, const JsonValue& at) {
   return *buffer.bytes;
 }
 
-/// The buffer of a view, which may hold what is packed elsewhere.
-const Bytes& File::unpacked_buffer(size_t index, size_t view_index, const JsonValue& view) {
-  try {
-    return buffer(index, view);
-  } catch (const MissingData&) {
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-      if (extension(view, name))
-        throw MissingData{fmt::format("bufferView {} is packed by {}", view_index, name)};
-    throw;
-  }
-}
-
 Bytes File::view(size_t index, const JsonValue& at) {
   const JsonValue& view = item("bufferViews", index, at);
+  if (const auto known = unpacked_views_.find(index); known != unpacked_views_.end())
+    return known->second;
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    if (const JsonValue* packed = extension(view, name)) {
+      if (auto bytes = unpacked_view(*packed, index)) return unpacked_views_[index] = *bytes;
+      // Some files have the plain bytes, too.
+      try {
+        return plain_view(view, index);
+      } catch (const MissingData&) {
+        throw MissingData{
+            fmt::format("bufferView {} is packed by {} in a way that is not known", index, name)};
+      }
+    }
+  return plain_view(view, index);
+}
+
+/// Nothing for what is packed in a way that is not known.
+std::optional<Bytes> File::unpacked_view(const JsonValue& packed, size_t index) {
+  MeshoptLayout layout;
+  const std::string mode = text(packed, "mode", ""), filter = text(packed, "filter", "NONE");
+  if (mode == "TRIANGLES")
+    layout.mode = MeshoptMode::triangles;
+  else if (mode == "INDICES")
+    layout.mode = MeshoptMode::indices;
+  else if (mode != "ATTRIBUTES")
+    return std::nullopt;
+  if (filter == "OCTAHEDRAL")
+    layout.filter = MeshoptFilter::octahedral;
+  else if (filter == "QUATERNION")
+    layout.filter = MeshoptFilter::quaternion;
+  else if (filter == "EXPONENTIAL")
+    layout.filter = MeshoptFilter::exponential;
+  else if (filter != "NONE")
+    return std::nullopt;
+  layout.count = count(packed, "count").value_or(0);
+  layout.stride = count(packed, "byteStride").value_or(0);
+  const Bytes bytes = plain_view(packed, index);
+  if (!layout.is_sound() || layout.count > 64 * bytes.bytes.size()) return std::nullopt;
+  spend(layout.count * (layout.stride + sizeof(uint32_t)), packed);
+  auto unpacked = unpacked_by_meshopt(bytes.bytes, layout);
+  if (!unpacked) return std::nullopt;
+  return owned(std::move(*unpacked));
+}
+
+Bytes File::plain_view(const JsonValue& view, size_t index) {
   const auto buffer_index = count(view, "buffer");
   if (!buffer_index)
     fail(view, fmt::format("bufferView {} names no buffer", index), "export the file again");
-  const Bytes& all = unpacked_buffer(*buffer_index, index, view);
+  const Bytes& all = buffer(*buffer_index, view);
   const size_t begin = count(view, "byteOffset").value_or(0);
   const size_t size = count(view, "byteLength").value_or(0);
   if (begin > all.bytes.size() || size > all.bytes.size() - begin)

@@ -37,11 +37,10 @@ Matrix joint_matrix(const Transform& world, std::span<const float> bind) {
 constexpr float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 std::vector<Matrix> joints_of(File& file, Accessors& accessors, const JsonValue& skin,
-                              const std::vector<PlacedNode>& placed) {
+                              const NodeWorlds& worlds) {
   const JsonValue* joints = skin.find("joints");
   if (!joints) return {};
-  std::vector<const Transform*> worlds(file.list("nodes").size());
-  for (const PlacedNode& node : placed) worlds[node.index] = &node.to_world;
+  file.spend(joints->items().size() * sizeof(Matrix), skin);
   std::shared_ptr<const Array> binds;
   if (const auto index = file.count(skin, "inverseBindMatrices")) {
     binds = accessors.floats(*index, skin);
@@ -90,6 +89,7 @@ void add_targets(File& file, Accessors& accessors, const JsonValue& primitive,
     const JsonValue& target = targets->items()[i];
     const auto index = file.count(target, attribute);
     if (!index || weights[i] == 0) continue;
+    file.spend(values.size() * sizeof(float), target);  // time, for targets may share their numbers
     const auto offsets = accessors.floats(*index, target);
     if (offsets->count() != values.size())
       file.fail(target, "the morph target does not go with the vertices", "export the file again");
@@ -135,15 +135,19 @@ void skin(File& file, Accessors& accessors, const JsonValue& primitive, bool is_
 
 }  // namespace
 
-Deformation deformation_of(File& file, Accessors& accessors, const JsonValue& node,
-                           const JsonValue& mesh, const std::vector<PlacedNode>& placed) {
+Deformation deformation_of(File& file, Accessors& accessors, const PlacedNode& placed_node,
+                           const JsonValue& mesh, const Pose& pose, const NodeWorlds& worlds) {
+  const JsonValue& node = *placed_node.node;
   Deformation deformation;
-  deformation.weights = weights_of(file, node.find("weights") ? node : mesh);
+  if (const std::vector<double>* moved = pose.find(placed_node.index, Animated::weights))
+    deformation.weights = *moved;
+  else
+    deformation.weights = weights_of(file, node.find("weights") ? node : mesh);
   if (std::all_of(deformation.weights.begin(), deformation.weights.end(),
                   [](double weight) { return weight == 0; }))
     deformation.weights.clear();
   if (const JsonValue* skin = file.referred(node, "skin", "skins"))
-    deformation.joints = joints_of(file, accessors, *skin, placed);
+    deformation.joints = joints_of(file, accessors, *skin, worlds);
   return deformation;
 }
 

@@ -19,9 +19,12 @@ struct Deformation {
   bool is_nothing() const { return weights.empty() && joints.empty(); }
 };
 
-/// Of a node that has a mesh. Throws MissingData.
-Deformation deformation_of(File& file, Accessors& accessors, const JsonValue& node,
-                           const JsonValue& mesh, const std::vector<PlacedNode>& placed);
+/// Where nodes are, by their index; null: they are not in the scene.
+using NodeWorlds = std::vector<const Transform*>;
+
+/// Of a node that has a mesh, as the pose has it. Throws MissingData.
+Deformation deformation_of(File& file, Accessors& accessors, const PlacedNode& node,
+                           const JsonValue& mesh, const Pose& pose, const NodeWorlds& worlds);
 
 /// The attribute POSITION or NORMAL of a primitive [count, 3] as it is moved: a new one, or
 /// `values` if nothing moves it.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -69,7 +70,8 @@ class File {
 
   // ---- bytes ----
 
-  /// Of a bufferView. Throws MissingData if its buffer is not there.
+  /// Of a bufferView, unpacked where it is packed by meshopt. Throws MissingData if its buffer is
+  /// not there, or packed in another way.
   Bytes view(size_t index, const JsonValue& at);
   /// What a data URI holds; nothing where it is none that can be read.
   std::optional<Bytes> data_uri(const std::string& uri, const JsonValue& at) const;
@@ -91,7 +93,8 @@ class File {
   void read_container(const std::shared_ptr<const std::vector<uint8_t>>& bytes);
   void read_json(std::string_view text, bool may_be_quoted);
   const Bytes& buffer(size_t index, const JsonValue& at);
-  const Bytes& unpacked_buffer(size_t index, size_t view_index, const JsonValue& view);
+  Bytes plain_view(const JsonValue& view, size_t index);
+  std::optional<Bytes> unpacked_view(const JsonValue& packed, size_t index);
   Buffer read_buffer(size_t index, const JsonValue& at);
 
   std::string name_;
@@ -102,6 +105,7 @@ class File {
   std::optional<TextPlaces> places_;
   std::optional<Bytes> binary_chunk_;
   std::vector<Buffer> buffers_;
+  std::map<size_t, Bytes> unpacked_views_;
   std::vector<std::string> sources_;
   size_t allowed_bytes_ = 0, spent_bytes_ = 0;
 };

@@ -41,22 +41,24 @@ std::optional<Transform> transform_of(std::span<const float> t, std::span<const 
 
 }  // namespace
 
-void Instances::count_uses(const std::vector<PlacedNode>& placed) {
+void Instances::take_nodes(const std::vector<PlacedNode>& placed) {
+  worlds_.resize(file_.list("nodes").size());
   for (const PlacedNode& node : placed) {
+    worlds_[node.index] = &node.to_world;
     const auto mesh = file_.count(*node.node, "mesh");
     if (!mesh || !node.is_there) continue;
     uses_[*mesh] += file_.extension(*node.node, "EXT_mesh_gpu_instancing") ? most_copies + 1 : 1;
   }
 }
 
-Meshes::Shapes Instances::shapes_of(const PlacedNode& node, const std::vector<PlacedNode>& placed) {
+Meshes::Shapes Instances::shapes_of(const PlacedNode& node, const Pose& pose) {
   Meshes::Shapes result;
   const auto mesh = file_.count(*node.node, "mesh");
   if (!mesh) return result;
   const JsonValue& object = file_.item("meshes", *mesh, *node.node);
   Deformation deformation;
   try {
-    deformation = deformation_of(file_, accessors_, *node.node, object, placed);
+    deformation = deformation_of(file_, accessors_, node, object, pose, worlds_);
   } catch (const MissingData& missing) {
     deviations_.missing(file_.name_of("node", *node.node, node.index),
                         missing.what + ": its mesh is shown at rest", file_.place(*node.node));

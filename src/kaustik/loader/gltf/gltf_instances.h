@@ -14,11 +14,11 @@ class Instances {
   Instances(File& file, Accessors& accessors, Meshes& meshes, Deviations& deviations)
       : file_(file), accessors_(accessors), meshes_(meshes), deviations_(deviations) {}
 
-  /// How often each mesh is there; to be called first.
-  void count_uses(const std::vector<PlacedNode>& placed);
+  /// What nodes there are, which must outlive this; to be called first.
+  void take_nodes(const std::vector<PlacedNode>& placed);
 
   /// The shapes of a node, in the world.
-  Meshes::Shapes shapes_of(const PlacedNode& node, const std::vector<PlacedNode>& placed);
+  Meshes::Shapes shapes_of(const PlacedNode& node, const Pose& pose);
 
   /// Multiplies the emission of all shapes that were made so far.
   void scale_emission(double factor);
@@ -36,6 +36,7 @@ class Instances {
   Meshes& meshes_;
   Deviations& deviations_;
   std::map<size_t, size_t> uses_;  ///< by mesh
+  NodeWorlds worlds_;
   std::map<size_t, std::shared_ptr<Object>> groups_;
   std::vector<std::shared_ptr<Object>> emitters_;
 };

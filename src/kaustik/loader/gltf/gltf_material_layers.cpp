@@ -13,8 +13,11 @@
 namespace kaustik::gltf {
 namespace {
 
-bool is_zero(const Textured& value) { return !value.texture && value.factor == Rgb{}; }
+bool is_zero(const Textured& value) { return value.factor == Rgb{}; }
 double largest_of(const Rgb& color) { return std::max({color.r, color.g, color.b}); }
+Rgb over(const Rgb& color, double divisor) {
+  return {color.r / divisor, color.g / divisor, color.b / divisor};
+}
 
 /// The index of refraction of what reflects so much straight on.
 double ior_reflecting(double share) {
@@ -30,16 +33,33 @@ bool MaterialReader::is_solid() const {
   return (volume && file_.number(*volume, "thicknessFactor", 0) > 0) || use_.is_closed;
 }
 
+/// Whether an extension makes it more than glass; many programs write them with values that do
+/// nothing.
+bool MaterialReader::has_layers() const {
+  const auto is_above_zero = [&](const char* name, const char* factor) {
+    const JsonValue* given = extension(name);
+    return given && file_.number(*given, factor, 0) > 0;
+  };
+  const std::vector<double> white = {1, 1, 1}, black = {0, 0, 0};
+  const JsonValue* specular = extension("KHR_materials_specular");
+  const JsonValue* sheen = extension("KHR_materials_sheen");
+  if (specular && (file_.number(*specular, "specularFactor", 1) != 1 ||
+                   file_.numbers(*specular, "specularColorFactor", white) != white ||
+                   specular->find("specularTexture") || specular->find("specularColorTexture")))
+    return true;
+  return (sheen && file_.numbers(*sheen, "sheenColorFactor", black) != black) ||
+         is_above_zero("KHR_materials_clearcoat", "clearcoatFactor") ||
+         is_above_zero("KHR_materials_anisotropy", "anisotropyStrength") ||
+         is_above_zero("KHR_materials_diffuse_transmission", "diffuseTransmissionFactor");
+}
+
 std::shared_ptr<Object> MaterialReader::glass() {
   if (transmission_ < 1) return nullptr;
   const JsonValue& transmission = *extension("KHR_materials_transmission");
   const double roughness = unit(*base_, "roughnessFactor", 1);
-  for (const char* other :
-       {"KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen",
-        "KHR_materials_anisotropy", "KHR_materials_diffuse_transmission"})
-    if (extension(other)) return nullptr;
-  if (transmission.find("transmissionTexture") || base_->find("metallicRoughnessTexture") ||
-      unit(*base_, "metallicFactor", 1) > 0 || (roughness > 0 && !is_solid()) || ior() == 1)
+  if (has_layers() || transmission.find("transmissionTexture") ||
+      base_->find("metallicRoughnessTexture") || unit(*base_, "metallicFactor", 1) > 0 ||
+      (roughness > 0 && !is_solid()) || ior() == 1)
     return nullptr;
   const char* type = !is_solid()     ? "thindielectric"
                      : roughness > 0 ? "roughdielectric"
@@ -65,21 +85,49 @@ void MaterialReader::read_base(Object& bsdf) {
   give_value(bsdf, "specular_roughness",
              scalar(*base_, "roughnessFactor", 1, "metallicRoughnessTexture", TextureUse::green),
              true);
-  give(bsdf, "specular_ior", ior());
+  give(bsdf, "specular_ior",
+       normal_reflectance() == 1 ? ior_reflecting(normal_reflectance()) : ior());
   read_anisotropy(bsdf);
 }
 
-/// Of what is no metal; `openpbr` has the weight, and toward the edge the colour, on metal, too.
+/// Of what is no metal. Straight on it reflects the share of its index times the colour, at most
+/// all; that makes another index where light does not pass. `openpbr` has the colour toward the
+/// edge, too, and the factor nowhere there.
 void MaterialReader::read_specular(Object& bsdf) {
   const JsonValue* specular = extension("KHR_materials_specular");
   if (!specular || number_in(bsdf, "base_metalness") == 1.0) return;
   const Textured weight =
       scalar(*specular, "specularFactor", 1, "specularTexture", TextureUse::opacity);
-  const Textured tint = color(*specular, "specularColorFactor", 1, "specularColorTexture");
+  if (is_zero(weight) && !transmits()) {
+    set_number(bsdf, "specular_ior", 1);
+    return;
+  }
+  const std::vector<double> given = file_.numbers(*specular, "specularColorFactor", {1, 1, 1});
+  Textured tint;
+  tint.factor = {std::max(0.0, given[0]), std::max(0.0, given[1]), std::max(0.0, given[2])};
+  const double most = std::max(largest_of(tint.factor), transmits() ? 1.0 : 1e-9);
+  if (const JsonValue* info = specular->find("specularColorTexture"))
+    tint.texture = textures_.texture(*info, TextureUse::color);
+  tint.factor = over(tint.factor, most);
+  if (most != 1)
+    set_number(bsdf, "specular_ior", ior_reflecting(std::min(1.0, normal_reflectance() * most)));
   give_value(bsdf, "specular_weight", weight, true);
   give_value(bsdf, "specular_color", tint, false);
+  const bool is_usual =
+      !weight.texture && weight.factor.r == 1 && !tint.texture && tint.factor == Rgb{1, 1, 1};
+  if (!is_usual)
+    approximated(
+        "its specular factor acts straight on alone, and its specular colour toward the edge, too");
   if (number_in(bsdf, "base_metalness") != 0.0)
     approximated("its specular factors change its metal, too");
+}
+
+/// The share that its index makes it reflect straight on. An index of 0 stands for all light.
+double MaterialReader::normal_reflectance() const {
+  const JsonValue* given = extension("KHR_materials_ior");
+  if (given && file_.number(*given, "ior", 1.5) == 0) return 1;
+  const double root = (ior() - 1) / (ior() + 1);
+  return root * root;
 }
 
 void MaterialReader::read_transmission(Object& bsdf) {
@@ -103,8 +151,14 @@ void MaterialReader::read_clearcoat(Object& bsdf) {
       bsdf, "coat_roughness",
       scalar(*coat, "clearcoatRoughnessFactor", 0, "clearcoatRoughnessTexture", TextureUse::green),
       true);
-  give(bsdf, "coat_ior", 1.5);
+  constexpr double coat_ior = 1.5;
+  give(bsdf, "coat_ior", coat_ior);
   give(bsdf, "coat_darkening", 0.0);
+  // In glTF the base reflects beneath the coat as it does in air, here by its index over the
+  // coat's.
+  if (!transmits() && !weight.texture && weight.factor.r == 1)
+    set_number(bsdf, "specular_ior",
+               std::min(100.0, coat_ior * number_in(bsdf, "specular_ior").value_or(coat_ior)));
   const JsonValue *own = coat->find("clearcoatNormalTexture"),
                   *base = material_.find("normalTexture");
   const auto index = [&](const JsonValue* info) {
@@ -118,13 +172,20 @@ void MaterialReader::read_sheen(Object& bsdf) {
   if (!sheen) return;
   const Textured tint = color(*sheen, "sheenColorFactor", 0, "sheenColorTexture");
   if (is_zero(tint)) return;
-  give(bsdf, "fuzz_weight", 1.0);
-  give_value(bsdf, "fuzz_color", tint, false);
-  give_value(
-      bsdf, "fuzz_roughness",
-      scalar(*sheen, "sheenRoughnessFactor", 0, "sheenRoughnessTexture", TextureUse::opacity),
-      true);
-  approximated("its sheen is rendered as OpenPBR's fuzz");
+  // What is beneath loses what the largest part of the colour reflects.
+  const double most = largest_of(tint.factor);
+  Textured share = tint;
+  share.factor = over(tint.factor, most);
+  give(bsdf, "fuzz_weight", most);
+  give_value(bsdf, "fuzz_color", share, false);
+  Textured roughness =
+      scalar(*sheen, "sheenRoughnessFactor", 0, "sheenRoughnessTexture", TextureUse::opacity);
+  // The width of the distribution is the square in glTF, and the roughness itself here.
+  const double width = roughness.factor.r * roughness.factor.r;
+  roughness.factor = {width, width, width};
+  give_value(bsdf, "fuzz_roughness", roughness, true);
+  if (tint.texture || roughness.texture)
+    approximated("what is beneath its sheen is as dark everywhere as its factors make it");
 }
 
 /// glTF widens the facets along the tangent; `openpbr` keeps the product of both slopes and makes
@@ -173,26 +234,19 @@ void MaterialReader::read_diffuse_transmission(Object& bsdf) {
 
 /// The archived model: straight on it reflects its specular colour.
 void MaterialReader::read_specular_glossiness(Object& bsdf, const JsonValue& given) {
-  const std::vector<double> diffuse = file_.numbers(given, "diffuseFactor", {1, 1, 1, 1});
   const Textured specular = color(given, "specularFactor", 1, "specularGlossinessTexture");
   const double most = largest_of(specular.factor);
-  Textured base;
-  base.factor = {std::clamp(diffuse[0], 0.0, 1.0), std::clamp(diffuse[1], 0.0, 1.0),
-                 std::clamp(diffuse[2], 0.0, 1.0)};
-  if (const JsonValue* info = given.find("diffuseTexture"))
-    base.texture = textures_.texture(*info, TextureUse::color);
-  give_value(bsdf, "base_color", base, false);
+  give_value(bsdf, "base_color", base_color(), false);
   give(bsdf, "base_metalness", 0.0);
   give(bsdf, "specular_ior", ior_reflecting(most));
   if (most > 0) {
     Textured tint = specular;
-    tint.factor = {specular.factor.r / most, specular.factor.g / most, specular.factor.b / most};
+    tint.factor = over(specular.factor, most);
     give_value(bsdf, "specular_color", tint, false);
   }
   give(bsdf, "specular_roughness", 1 - unit(given, "glossinessFactor", 1));
   if (given.find("specularGlossinessTexture"))
     approximated("its glossiness is the same everywhere, without the texture");
-  if (diffuse[3] < 1) approximated("its opacity is that of the metallic-roughness model");
 }
 
 }  // namespace kaustik::gltf

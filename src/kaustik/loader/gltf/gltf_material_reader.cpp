@@ -8,6 +8,7 @@
 
 #include "kaustik/base/white_efficacy.h"
 #include "kaustik/loader/object_maker.h"
+#include "kaustik/loader/object_parts.h"
 
 namespace kaustik::gltf {
 namespace {
@@ -55,6 +56,9 @@ MaterialReader::MaterialReader(const File& file, Textures& textures, const Optio
       use_(use),
       place_(file.place(material)),
       base_(material.find("pbrMetallicRoughness")) {
+  // By the letter the archived model goes first; but of that the glossiness has no texture here.
+  glossiness_ = extension("KHR_materials_pbrSpecularGlossiness");
+  if (base_ && base_->find("metallicRoughnessTexture")) glossiness_ = nullptr;
   if (!base_) base_ = &nothing_;
   if (const JsonValue* transmission = extension("KHR_materials_transmission"))
     transmission_ = unit(*transmission, "transmissionFactor", 0);
@@ -77,9 +81,8 @@ Surface MaterialReader::read() {
   std::shared_ptr<Object> bsdf = glass();
   if (!bsdf) {
     bsdf = make_object("bsdf", "openpbr", place_);
-    const JsonValue* glossiness = extension("KHR_materials_pbrSpecularGlossiness");
-    if (glossiness && base_ == &nothing_) {
-      read_specular_glossiness(*bsdf, *glossiness);
+    if (glossiness_) {
+      read_specular_glossiness(*bsdf, *glossiness_);
     } else {
       read_base(*bsdf);
       read_specular(*bsdf);
@@ -127,12 +130,20 @@ Textured MaterialReader::color(const JsonValue& object, const char* factor, doub
   return result;
 }
 
+std::vector<double> MaterialReader::color_factor() const {
+  return glossiness_ ? file_.numbers(*glossiness_, "diffuseFactor", {1, 1, 1, 1})
+                     : file_.numbers(*base_, "baseColorFactor", {1, 1, 1, 1});
+}
+const JsonValue* MaterialReader::color_texture() const {
+  return glossiness_ ? glossiness_->find("diffuseTexture") : base_->find("baseColorTexture");
+}
+
 Textured MaterialReader::base_color() {
-  const std::vector<double> given = file_.numbers(*base_, "baseColorFactor", {1, 1, 1, 1});
+  const std::vector<double> given = color_factor();
   Textured result;
   double* const parts[] = {&result.factor.r, &result.factor.g, &result.factor.b};
   for (size_t i = 0; i < 3; ++i) *parts[i] = std::clamp(given[i], 0.0, 1.0);
-  if (const JsonValue* info = base_->find("baseColorTexture"))
+  if (const JsonValue* info = color_texture())
     result.texture = textures_.texture(*info, TextureUse::color);
   if (use_.has_colors)
     result.texture = product(result.texture, vertex_attribute("vertex_color", place_));
@@ -140,10 +151,10 @@ Textured MaterialReader::base_color() {
 }
 
 Textured MaterialReader::opacity() {
-  const double factor = file_.numbers(*base_, "baseColorFactor", {1, 1, 1, 1})[3];
+  const double factor = color_factor()[3];
   Textured result;
   result.factor.r = result.factor.g = result.factor.b = std::clamp(factor, 0.0, 1.0);
-  if (const JsonValue* info = base_->find("baseColorTexture"))
+  if (const JsonValue* info = color_texture())
     result.texture = textures_.texture(*info, TextureUse::opacity);
   if (use_.has_opacities)
     result.texture = product(result.texture, vertex_attribute("vertex_value", place_));
@@ -160,10 +171,17 @@ void MaterialReader::give_value(Object& to, const char* name, const Textured& va
     give(to, name, value.factor);
 }
 
+/// In place of the one that it has.
+void MaterialReader::set_number(Object& bsdf, const char* name, double number) {
+  remove_property(bsdf, name);
+  give(bsdf, name, number);
+}
+
 double MaterialReader::ior() const {
   const JsonValue* extension_object = extension("KHR_materials_ior");
   if (!extension_object) return 1.5;
   const double ior = file_.number(*extension_object, "ior", 1.5);
+  if (ior == 0 && !transmits()) return 1.5;  // see normal_reflectance()
   if (ior >= 1 && ior <= 100) return ior;
   approximated(fmt::format("its index of refraction is {}: 1.5 stands for it", ior));
   return 1.5;
@@ -182,6 +200,7 @@ std::shared_ptr<Object> MaterialReader::unlit() {
 
 /// With the normal map, and from both sides where light does not pass.
 std::shared_ptr<Object> MaterialReader::bent(std::shared_ptr<Object> bsdf) {
+  const bool passes_light = transmits() || find_property(*bsdf, "geometry_thin_walled");
   if (const JsonValue* info = material_.find("normalTexture")) {
     if (auto picture = textures_.texture(*info, TextureUse::data)) {
       auto relief = make_object("bsdf", "normalmap", file_.place(*info));
@@ -193,7 +212,7 @@ std::shared_ptr<Object> MaterialReader::bent(std::shared_ptr<Object> bsdf) {
       bsdf = std::move(relief);
     }
   }
-  if (transmits() || extension("KHR_materials_diffuse_transmission")) return bsdf;
+  if (passes_light) return bsdf;
   auto both = make_object("bsdf", "twosided", place_);
   put(*both, "", std::move(bsdf));
   return both;
@@ -206,8 +225,13 @@ std::shared_ptr<Object> MaterialReader::masked(std::shared_ptr<Object> bsdf) {
   if (mode == "BLEND" && !value.texture && value.factor.r == 1) return bsdf;
   auto mask = make_object("bsdf", "mask", place_);
   give_value(*mask, "opacity", value, true);
-  if (mode == "MASK")
-    give(*mask, "cutoff", std::clamp(file_.number(material_, "alphaCutoff", 0.5), 0.0, 1.0));
+  const double cutoff = file_.number(material_, "alphaCutoff", 0.5);
+  if (mode == "MASK" && cutoff > 1) {
+    mask = make_object("bsdf", "mask", place_);
+    give(*mask, "opacity", 0.0);
+  } else if (mode == "MASK") {
+    give(*mask, "cutoff", std::max(cutoff, 0.0));
+  }
   put(*mask, "", std::move(bsdf));
   return mask;
 }

@@ -39,6 +39,7 @@ class MaterialReader {
   std::shared_ptr<Object> unlit();
   /// A bsdf of clear glass alone; null: the material is more than that.
   std::shared_ptr<Object> glass();
+  bool has_layers() const;
   std::shared_ptr<Object> bent(std::shared_ptr<Object> bsdf);
   std::shared_ptr<Object> masked(std::shared_ptr<Object> bsdf);
   std::shared_ptr<Object> interior() const;
@@ -50,16 +51,20 @@ class MaterialReader {
   bool is_thin() const { return transmits() && !is_solid(); }
   /// 1.5 unless KHR_materials_ior says otherwise.
   double ior() const;
+  double normal_reflectance() const;
 
   // Values that may have textures.
   double unit(const JsonValue& object, const char* name, double usual) const;
   Textured scalar(const JsonValue& object, const char* factor, double usual, const char* texture,
                   TextureUse use);
   Textured color(const JsonValue& object, const char* factor, double usual, const char* texture);
+  std::vector<double> color_factor() const;
+  const JsonValue* color_texture() const;
   Textured base_color();
   Textured opacity();
   /// Gives a bsdf the value, as a property or as a texture.
   void give_value(Object& to, const char* name, const Textured& value, bool is_number) const;
+  static void set_number(Object& bsdf, const char* name, double number);
   void approximated(std::string what) const;
   void ignored(std::string what) const;
   const JsonValue* extension(const char* name) const { return file_.extension(material_, name); }
@@ -72,7 +77,8 @@ class MaterialReader {
   std::string name_;
   SurfaceUse use_;
   Place place_;
-  const JsonValue* base_;  ///< pbrMetallicRoughness, or nothing
+  const JsonValue* base_;        ///< pbrMetallicRoughness, or nothing
+  const JsonValue* glossiness_;  ///< the archived model, where it takes the place of that; or null
   double transmission_ = 0;
   static const JsonValue nothing_;
 };

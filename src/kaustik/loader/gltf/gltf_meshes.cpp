@@ -138,7 +138,7 @@ std::shared_ptr<const Array> Meshes::attribute(const Part& part, const std::stri
   if (!index) return nullptr;
   if (file_.extension(part.primitive, "KHR_draco_mesh_compression") &&
       !file_.item("accessors", *index, part.attributes).find("bufferView"))
-    throw MissingData{"it is packed by KHR_draco_mesh_compression"};
+    throw MissingData{"it is packed by KHR_draco_mesh_compression; export it without compression"};
   const AccessorShape shape = accessors_.shape(*index, part.attributes);
   if (shape.count != vertices || shape.components < least || shape.components > most)
     file_.fail(*part.attributes.find(name),
@@ -175,6 +175,7 @@ bool Meshes::needs_opacity(const Part& part) const {
 void Meshes::give_colors(const Part& part, size_t vertices, Object& shape, SurfaceUse& use) {
   const auto given = attribute(part, "COLOR_0", vertices, 3, 4);
   if (!given) return;
+  file_.spend(vertices, part.primitive);  // time, for primitives may share their colours
   const std::span<const float> numbers = floats_in(*given);
   const size_t components = given->extents()[1];
   const bool is_within = std::all_of(numbers.begin(), numbers.end(),

@@ -42,16 +42,21 @@ void compose(const std::vector<double>& t, std::vector<double> q, const std::vec
   }
 }
 
-std::optional<Transform> local_transform(const File& file, const JsonValue& node) {
+std::optional<Transform> local_transform(const File& file, const Pose& pose, const JsonValue& node,
+                                         size_t index) {
   double rows[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
   if (node.find("matrix")) {
     const std::vector<double> columns = file.numbers(node, "matrix", std::vector<double>(16));
     for (size_t i = 0; i < 3; ++i)
       for (size_t j = 0; j < 4; ++j) rows[i][j] = columns[4 * j + i];
   } else {
-    compose(file.numbers(node, "translation", {0, 0, 0}),
-            file.numbers(node, "rotation", {0, 0, 0, 1}), file.numbers(node, "scale", {1, 1, 1}),
-            rows);
+    const auto part = [&](Animated what, const char* name, std::vector<double> usual) {
+      const std::vector<double>* moved = pose.find(index, what);
+      return moved ? *moved : file.numbers(node, name, std::move(usual));
+    };
+    compose(part(Animated::translation, "translation", {0, 0, 0}),
+            part(Animated::rotation, "rotation", {0, 0, 0, 1}),
+            part(Animated::scale, "scale", {1, 1, 1}), rows);
   }
   return transform_of(rows);
 }
@@ -67,8 +72,8 @@ std::optional<Transform> product(const Transform& parent, const Transform& own) 
 
 class NodeWalk {
  public:
-  NodeWalk(const File& file, Deviations& deviations)
-      : file_(file), deviations_(deviations), is_known_(file.list("nodes").size()) {}
+  NodeWalk(const File& file, const Pose& pose, Deviations& deviations)
+      : file_(file), pose_(pose), deviations_(deviations), is_known_(file.list("nodes").size()) {}
 
   std::vector<PlacedNode> walk() {
     for (std::vector<Open> open = roots(); !open.empty();) {
@@ -136,7 +141,7 @@ class NodeWalk {
       placed.is_there = placed_[next.parent].is_there;
     }
     if (placed.is_there) {
-      const std::optional<Transform> own = local_transform(file_, node);
+      const std::optional<Transform> own = local_transform(file_, pose_, node, next.index);
       const std::optional<Transform> both = own ? product(placed.to_world, *own) : std::nullopt;
       if (both) placed.to_world = *both;
       placed.is_there = both.has_value();
@@ -151,6 +156,7 @@ class NodeWalk {
   }
 
   const File& file_;
+  const Pose& pose_;
   Deviations& deviations_;
   std::vector<bool> is_known_;
   std::vector<PlacedNode> placed_;
@@ -158,8 +164,8 @@ class NodeWalk {
 
 }  // namespace
 
-std::vector<PlacedNode> placed_nodes(const File& file, Deviations& deviations) {
-  return NodeWalk(file, deviations).walk();
+std::vector<PlacedNode> placed_nodes(const File& file, const Pose& pose, Deviations& deviations) {
+  return NodeWalk(file, pose, deviations).walk();
 }
 
 }  // namespace kaustik::gltf

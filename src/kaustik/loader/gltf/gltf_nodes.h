@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kaustik/base/transform.h"
-#include "kaustik/loader/gltf/gltf_file.h"
+#include "kaustik/loader/gltf/gltf_animation.h"
 
 namespace kaustik::gltf {
 
@@ -16,8 +16,8 @@ struct PlacedNode {
   bool is_there = true;  ///< false: it is squeezed to less than a plane
 };
 
-/// All nodes of the scene, parents before their children; what hides nodes is minded. Throws
-/// Error(input) for nodes that are no tree.
-std::vector<PlacedNode> placed_nodes(const File& file, Deviations& deviations);
+/// All nodes of the scene as the pose has them, parents before their children; what hides nodes is
+/// minded. Throws Error(input) for nodes that are no tree.
+std::vector<PlacedNode> placed_nodes(const File& file, const Pose& pose, Deviations& deviations);
 
 }  // namespace kaustik::gltf

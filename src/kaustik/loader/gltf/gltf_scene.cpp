@@ -37,9 +37,9 @@ class SceneReader {
 
   Description read() {
     check_extensions(file_, deviations_);
-    tell_of_animations();
-    const std::vector<PlacedNode> placed = placed_nodes(file_, deviations_);
-    instances_.count_uses(placed);
+    const Pose pose = pose_of(file_, accessors_, options_, deviations_);
+    const std::vector<PlacedNode> placed = placed_nodes(file_, pose, deviations_);
+    instances_.take_nodes(placed);
     bool has_lamps = false;
     for (const PlacedNode& node : placed) {
       if (!node.is_there) continue;
@@ -48,11 +48,10 @@ class SceneReader {
         put(scene(), "", std::move(lamp));
         has_lamps = true;
       }
-      for (auto& shape : instances_.shapes_of(node, placed)) put(scene(), "", std::move(shape));
+      for (auto& shape : instances_.shapes_of(node, pose)) put(scene(), "", std::move(shape));
     }
-    Framing framing(description_, deviations_);
-    if (!has_lamps && !materials_.has_bright_emission()) light_studio(framing);
-    framing.add_missing_camera();
+    const bool needs_light = !has_lamps && !materials_.has_bright_emission();
+    if (needs_light || camera_ids_.empty()) frame(needs_light);
     description_.sources = file_.sources();
     deviations_.finish(description_, is_strict_);
     description_.is_strict = is_strict_;
@@ -61,6 +60,12 @@ class SceneReader {
 
  private:
   Object& scene() { return *description_.scene; }
+
+  void frame(bool needs_light) {
+    Framing framing(description_, deviations_);
+    if (needs_light) light_studio(framing);
+    framing.add_missing_camera();
+  }
 
   /// Such files mean emission of 1 to be as bright as white surfaces.
   void light_studio(Framing& framing) {
@@ -75,14 +80,6 @@ class SceneReader {
           file_.place());
     }
     framing.add_studio_light();
-  }
-
-  void tell_of_animations() {
-    const JsonValue::Items& animations = file_.list("animations");
-    for (size_t i = 0; i < animations.size(); ++i)
-      deviations_.ignored(file_.name_of("animation", animations[i], i),
-                          "nothing moves: nodes stand as the file has them",
-                          file_.place(animations[i]));
   }
 
   Options options_;

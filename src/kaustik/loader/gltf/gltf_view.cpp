@@ -31,7 +31,9 @@ Transform view_of(const File& file, const PlacedNode& placed) {
 
 std::string free_id(std::string id, std::set<std::string>& ids) {
   std::string candidate = id;
-  for (int i = 2; !ids.insert(candidate).second; ++i) candidate = fmt::format("{} {}", id, i);
+  constexpr size_t most_in_turn = 100;  // where more are alike the search would take long
+  for (size_t i = 2; !ids.insert(candidate).second; i += i < most_in_turn ? 1 : ids.size())
+    candidate = fmt::format("{} {}", id, i);
   return candidate;
 }
 
