@@ -103,6 +103,8 @@ class Translator {
       const Rgb factor = scaling_.factor_of(*object);
       if (factor != Rgb{1, 1, 1} || needs_exr(*object)) files_.use_exr(object, factor);
     }
+    if (object->type == "envmap" && find_property(*object, "data")) files_.use_exr_around(object);
+    if (object->type == "gridvolume" && find_property(*object, "data")) files_.use_vol(object);
     if (object->family != "scene") name_what_is_unknown(*object);
     for (const Child& child : object->children) finish(child.object, seen);
   }
