@@ -83,6 +83,14 @@ TEST(RadianceErrors, HaveAPlaceAndARemedy) {
                "three numbers");
 }
 
+TEST(RadianceErrors, NumbersOutOfAllBounds) {
+  const std::string light = "void light l 0 0 3 1 1 1\n";
+  EXPECT_TRUE(tells(parse_rad(light + "l source s 0 0 4 0 0 -1e308 .5\n"), DeviationKind::ignored,
+                    "source 's'"));
+  EXPECT_TRUE(tells(parse_rad(grey + "!genbox grey b 1 1 1 | xform -s 1e200 -s 1e200\n"),
+                    DeviationKind::ignored, "polygon 'b.1'", "no area"));
+}
+
 TEST(RadianceErrors, CommandsAreNeverRun) {
   expect_wrong("!rm -f x\n", "test.rad:1:1", "'rm', which is not built in", "xform -e scene.rad");
   expect_wrong("!genbox a b 1 1 1; touch x\n", "test.rad:1:1", "has a ';'", "not run");

@@ -108,8 +108,9 @@ TEST_F(RadianceViews, ScenesWithoutLightGetSomeFromAbove) {
   const auto scene = parse_rad(grey + square);
   EXPECT_TRUE(tells(scene, DeviationKind::missing, "light"));
   for (const Child& child : scene.scene->children)
-    if (child.object->type == "rectangle")
+    if (child.object->type == "rectangle") {
       EXPECT_GT(value<Transform>(*child.object, "to_world").point({0, 0, 0}).z, 1);
+    }
   EXPECT_FALSE(tells(parse_rad(grey + square +
                                "void light l 0 0 3 1 1 1\n"
                                "l sphere s 0 0 4 0 0 5 1\n"),

@@ -164,6 +164,7 @@ class Translator {
 
   void use_sunsky(Object& emitter) {
     if (emitter.type != "sun" && emitter.type != "sky" && emitter.type != "sunsky") return;
+    if (find_property(emitter, "irradiance")) return;  // there it is by turbidity alone
     result_.version = "3.7.0";  // the first that has it, and means units of Mitsuba
     const Property* units = find_property(emitter, "units");
     const auto* name = units ? std::get_if<std::string>(&units->value) : nullptr;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <vector>
 
 #include "kaustik/base/error.h"
@@ -175,18 +176,43 @@ class SceneLoader {
 }  // namespace
 }  // namespace radiance
 
+namespace {
+
+/// Transforms out of all bounds, of views and of the scene as a whole.
+template <typename Read>
+Description within_bounds(const Read& read, const std::string& name) {
+  try {
+    return read();
+  } catch (const std::invalid_argument&) {
+    throw Error(ErrorKind::input, "a view, or all of the scene, is larger than numbers go",
+                "check the numbers of views (-vp, -vd, -vu), and of the scene's transforms",
+                place_in(name));
+  }
+}
+
+}  // namespace
+
 bool is_radiance(std::string_view head) {
   return radiance::is_compiled(head, "Radiance_octree") || radiance::begins_as_rif(head) ||
          radiance::begins_as_view(head) || radiance::begins_as_statements(head);
 }
 
 Description load_radiance(const std::string& path, const LoadOptions& options) {
-  return radiance::SceneLoader(std::filesystem::path(path).parent_path(), options).load(path);
+  return within_bounds(
+      [&] {
+        return radiance::SceneLoader(std::filesystem::path(path).parent_path(), options).load(path);
+      },
+      path);
 }
 
 Description parse_radiance(std::string_view text, std::string name_for_messages,
                            const std::string& base_folder, const LoadOptions& options) {
-  return radiance::SceneLoader(base_folder, options).parse(text, name_for_messages, base_folder);
+  return within_bounds(
+      [&] {
+        return radiance::SceneLoader(base_folder, options)
+            .parse(text, name_for_messages, base_folder);
+      },
+      name_for_messages);
 }
 
 }  // namespace kaustik

@@ -125,6 +125,17 @@ ModifierPointer SceneReader::modifier_of(const Primitive& surface, const Frame& 
 }
 
 void SceneReader::read(const std::shared_ptr<const Primitive>& primitive, const Frame& frame) {
+  try {
+    read_checked(primitive, frame);
+  } catch (const std::invalid_argument&) {
+    throw Error(ErrorKind::input,
+                fmt::format("{} is larger or smaller than numbers go", name_of(*primitive)),
+                "check its numbers, and the transforms that place it", primitive->place);
+  }
+}
+
+void SceneReader::read_checked(const std::shared_ptr<const Primitive>& primitive,
+                               const Frame& frame) {
   files_.budget().spend(bytes_of(*primitive), primitive->place);
   const Kind kind = kind_of(primitive->type);
   if (kind == Kind::alias) stand_in_for(primitive->strings.at(0), primitive->place);

@@ -37,6 +37,8 @@ class SceneReader {
   void walk(const std::shared_ptr<const Statements>& statements, const Frame& frame);
   void walk_file(const std::filesystem::path& path, const Frame& frame, const Place& place);
   void read(const std::shared_ptr<const Primitive>& primitive, const Frame& frame);
+  /// Throws std::invalid_argument, too, where transforms are out of bounds.
+  void read_checked(const std::shared_ptr<const Primitive>& primitive, const Frame& frame);
   void run(const Command& command, const Frame& frame);
   void run_programs(const Command& command, const Frame& frame);
   /// The frames of what an xform command places, and the files that it names.
