@@ -131,8 +131,9 @@ void add_convert(CLI::App& program) {
   command->footer(
       "The new file refers to meshes and pictures in their places, relative to its own folder. "
       "Mitsuba 3 reads some of them differently (parts of OBJ files, height fields, scaled "
-      "textures …). These become PLY and EXR files beside the new file; their names begin with its "
-      "name.\n"
+      "textures …). These become PLY, EXR and VOL files beside the new file; their names begin "
+      "with "
+      "its name.\n"
       "  kaustik convert scene.xml -o mitsuba3.xml");
   auto o = std::make_shared<ConvertOptions>();
   add_scene(*command, o->scene);

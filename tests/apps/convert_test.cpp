@@ -194,5 +194,20 @@ TEST_F(Convert, GridsAndMeshesOfPbrtAreFiles) {
   EXPECT_LT(difference("old.pbrt", "new.xml"), 1e-5);
 }
 
+/// Buffers that are no meshes: light from around, and a volume of samples.
+TEST_F(Convert, SkiesAndPatternsOfRadianceAreFiles) {
+  write("old.rad",
+        "!gensky 6 21 14 +s\nskyfunc glow sky_glow 0 0 4 1 1 1 0\n"
+        "sky_glow source sky 0 0 4 0 0 1 180\nvoid brightfunc ramp 2 Px/4+.5 . 0 0\n"
+        "ramp plastic paint 0 0 5 .8 .5 .3 0 0\npaint ring floor 0 0 8 0 0 0 0 0 1 0 2\n"
+        "paint sphere ball 0 0 4 0 0 .5 .5\n");
+  write("old.rif", "scene= old.rad\nRESOLUTION= 12\nview= v -vp 0 -4 2 -vd 0 4 -2 -vh 50 -vv 50\n");
+  const RunResult converted = run_well({"convert", "old.rif", "-o", "new.xml"});
+  const std::vector<std::string> written = files();
+  for (const char* name : {"new_bitmap.exr", "new_gridvolume.vol"})
+    EXPECT_TRUE(std::ranges::find(written, name) != written.end()) << name << converted.err;
+  EXPECT_LT(difference("old.rif", "new.xml"), 1e-6);
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -3,7 +3,7 @@
 
 #include "radiance_support.h"
 
-namespace kaustik {
+namespace kaustik::radiance_test {
 namespace {
 
 const std::string whole_rad = R"(# every kind of statement
@@ -135,4 +135,4 @@ TEST(RadianceFuzz, ControlFiles) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::radiance_test

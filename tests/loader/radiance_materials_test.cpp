@@ -1,17 +1,17 @@
 // Materials of Radiance: closed forms of what they reflect and transmit.
 #include "radiance_support.h"
 
-namespace kaustik {
+namespace kaustik::radiance_test {
 namespace {
 
 const Object& bsdf_in(const Description& description) {
-  return bsdf_of(only(description, "shape"));
+  return front_bsdf(sole_object(description, "shape"));
 }
 
 TEST(RadianceMaterials, RoughPlasticAndMetalAreWards) {
   const auto plastic = with_material("void plastic m 0 0 5 .5 .4 .2 .05 .1");
   EXPECT_EQ(bsdf_in(plastic).type, "ward");
-  EXPECT_EQ(nested(only(plastic, "shape"), "bsdf").type, "twosided");
+  EXPECT_EQ(nested(sole_object(plastic, "shape"), "bsdf").type, "twosided");
   expect_colour(bsdf_in(plastic), "diffuse_reflectance", .475, .38, .19);
   expect_colour(bsdf_in(plastic), "specular_reflectance", .05, .05, .05);
   EXPECT_EQ(value<double>(bsdf_in(plastic), "alpha_u"), .1);
@@ -79,26 +79,26 @@ TEST(RadianceMaterials, TransBySharesOfItsLight) {
 
 TEST(RadianceMaterials, DielectricsAbsorbPerLength) {
   const auto scene = with_material("void dielectric m 0 0 5 .5 .25 1 1.33 0");
-  const Object& shape = only(scene, "shape");
-  EXPECT_EQ(*number_in(bsdf_of(shape), "int_ior"), 1.33);
+  const Object& shape = sole_object(scene, "shape");
+  EXPECT_EQ(*number_in(front_bsdf(shape), "int_ior"), 1.33);
   expect_colour(nested(shape, "medium", "interior"), "sigma_a", std::log(2), std::log(4), 0);
   // In a space that is twice as large it absorbs half as much per metre.
   TemporaryFolder folder;
   folder.write("g.rad", "void dielectric m 0 0 5 .5 .25 1 1.33 0\nm sphere s 0 0 4 0 0 0 1\n");
   const auto large = load_radiance(folder.write("a.rad", "!xform -s 2 g.rad\n"));
-  expect_colour(nested(only(large, "shape"), "medium", "interior"), "sigma_a", std::log(2) / 2,
-                std::log(4) / 2, 0);
+  expect_colour(nested(sole_object(large, "shape"), "medium", "interior"), "sigma_a",
+                std::log(2) / 2, std::log(4) / 2, 0);
   EXPECT_THROW(
-      nested(only(with_material("void dielectric m 0 0 5 1 1 1 1.5 0"), "shape"), "medium"),
+      nested(sole_object(with_material("void dielectric m 0 0 5 1 1 1 1.5 0"), "shape"), "medium"),
       std::runtime_error);
 }
 
 TEST(RadianceMaterials, LampsShineInFront) {
   const auto scene = with_material("void light m 0 0 3 10 20 30");
-  const Object& lamp = only(scene, "shape");
+  const Object& lamp = sole_object(scene, "shape");
   expect_colour(nested(lamp, "emitter"), "radiance", 10, 20, 30);
   EXPECT_FALSE(find_property(nested(lamp, "emitter"), "two_sided"));
-  expect_colour(bsdf_of(lamp), "reflectance", 0, 0, 0);
+  expect_colour(front_bsdf(lamp), "reflectance", 0, 0, 0);
   EXPECT_TRUE(tells(with_material("void glow m 0 0 4 1 1 1 -1"), DeviationKind::approximated,
                     "glow 'm'", "lights the scene"));
   EXPECT_EQ(deviations_but_view(with_material("void glow m 0 0 4 1 1 1 0")), 0u);
@@ -106,7 +106,7 @@ TEST(RadianceMaterials, LampsShineInFront) {
 
 TEST(RadianceMaterials, SpotlightsHaveHardEdges) {
   const auto scene = with_material("void spotlight m 0 0 7 100 100 100 40 0 0 1");
-  const Object& spot = only(scene, "emitter");
+  const Object& spot = sole_object(scene, "emitter");
   EXPECT_EQ(spot.type, "spot");
   expect_colour(spot, "intensity", 100, 100, 100);  // of one square metre
   EXPECT_EQ(*number_in(spot, "cutoff_angle"), 20);
@@ -120,7 +120,7 @@ TEST(RadianceMaterials, IllumsDoNotLightTwice) {
   EXPECT_EQ(bsdf_in(window).type, "thindielectric");
   EXPECT_TRUE(tells(window, DeviationKind::approximated, "illum 'm'", "does not shine"));
   const auto lamp = with_material("void illum m 0 0 3 5 5 5");
-  EXPECT_FALSE(value<bool>(nested(only(lamp, "shape"), "emitter"), "visible"));
+  EXPECT_FALSE(value<bool>(nested(sole_object(lamp, "shape"), "emitter"), "visible"));
   EXPECT_EQ(bsdf_in(lamp).type, "null");
 }
 
@@ -129,16 +129,16 @@ TEST(RadianceMaterials, MirrorsAndMist) {
   EXPECT_EQ(bsdf_in(mirror).type, "conductor");
   expect_colour(bsdf_in(mirror), "specular_reflectance", .9, .8, .7);
   const auto mist = with_material("void mist m 0 0 7 .1 .2 .3 .9 .9 .9 .6");
-  const Object& medium = nested(only(mist, "shape"), "medium", "interior");
+  const Object& medium = nested(sole_object(mist, "shape"), "medium", "interior");
   expect_colour(medium, "sigma_t", .1, .2, .3);
   EXPECT_EQ(*number_in(nested(medium, "phase"), "g"), .6);
 }
 
 TEST(RadianceMaterials, LongHighlightsLieAlongTheirTangent) {
   const auto scene = with_material("void metal2 m 4 0 1 0 . 0 6 .9 .9 .9 1 .2 .05");
-  const Object& shape = only(scene, "shape");
-  EXPECT_EQ(*number_in(bsdf_of(shape), "alpha_u"), .2);
-  const auto positions = numbers_in(shape, "positions"), uvs = numbers_in(shape, "uv");
+  const Object& shape = sole_object(scene, "shape");
+  EXPECT_EQ(*number_in(front_bsdf(shape), "alpha_u"), .2);
+  const auto positions = rad_numbers(shape, "positions"), uvs = rad_numbers(shape, "uv");
   for (size_t i = 0; i < uvs.size() / 2; ++i)
     EXPECT_NEAR(uvs[2 * i] - uvs[0], positions[3 * i + 1] - positions[1], 1e-6);
 }
@@ -169,7 +169,7 @@ TEST(RadianceMaterials, MeasuredLayersBySharesOfEvenLight) {
                    "</WindowElement>");
   const auto scene = load_radiance(folder.write(
       "a.rad", "void BSDF m 6 0 sample.xml 0 0 1 . 0 0\nm polygon p 0 0 9 0 0 0 1 0 0 1 1 0\n"));
-  const Object& bsdf = bsdf_of(only(scene, "shape"));
+  const Object& bsdf = front_bsdf(sole_object(scene, "shape"));
   EXPECT_NEAR(colour_in(bsdf, "diffuse_transmittance")->g, .4, 1e-4);
   expect_colour(bsdf, "diffuse_reflectance", 0, 0, 0);
   EXPECT_TRUE(tells(scene, DeviationKind::approximated, "BSDF 'm'", "evenly"));
@@ -184,4 +184,4 @@ TEST(RadianceMaterials, UnknownOnesAreTold) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::radiance_test

@@ -4,7 +4,7 @@
 #include "kaustik/loader/radiance/data_table.h"
 #include "radiance_support.h"
 
-namespace kaustik {
+namespace kaustik::radiance_test {
 namespace {
 
 using namespace radiance;
@@ -91,14 +91,14 @@ TEST(RadiancePatterns, ConstantsMultiplyTheColour) {
   const auto scene = with_material(
       "void brightfunc half 2 A1*2 . 0 1 .25\nvoid colorfunc tint 4 1 .5 .25 . 0 0\n"
       "half alias top half\nhalf plastic m 0 0 5 .8 .8 .8 0 0\n");
-  expect_colour(bsdf_of(only(scene, "shape")), "reflectance", .4, .4, .4);
+  expect_colour(front_bsdf(sole_object(scene, "shape")), "reflectance", .4, .4, .4);
   EXPECT_EQ(deviations_but_view(scene), 0u);
 }
 
 TEST(RadiancePatterns, PatternsInSpaceAreSampled) {
   const auto scene =
       with_material("void brightfunc ramp 2 Px . 0 0\nramp plastic m 0 0 5 1 .5 0 0 0\n");
-  const Object& texture = *bsdf_of(only(scene, "shape")).children.at(0).object;
+  const Object& texture = *front_bsdf(sole_object(scene, "shape")).children.at(0).object;
   EXPECT_EQ(texture.type, "scale");
   const Object& volume = nested(nested(texture, "texture"), "volume");
   const auto& placed = value<Transform>(volume, "to_world");
@@ -106,7 +106,7 @@ TEST(RadiancePatterns, PatternsInSpaceAreSampled) {
   ASSERT_EQ(data.extents().size(), 4u);
   const size_t columns = data.extents()[2];
   EXPECT_GT(columns, 100u);
-  const auto values = numbers_in(volume, "data");
+  const auto values = rad_numbers(volume, "data");
   for (size_t x = 0; x < columns; x += 17) {
     const double at = double(placed.point({(float(x) + 0.5f) / float(columns), 0.5f, 0.5f}).x);
     EXPECT_NEAR(values[3 * x], at, 1e-5);
@@ -118,8 +118,29 @@ TEST(RadiancePatterns, WhatDependsOnTheViewCountsByItsMean) {
   // The mean of cos over the hemisphere by cosines is 2/3.
   const auto scene =
       with_material("void brightfunc f 2 Rdot . 0 0\nf plastic m 0 0 5 .9 .9 .9 0 0\n");
-  EXPECT_NEAR(colour_in(bsdf_of(only(scene, "shape")), "reflectance")->r, .6, .05);
+  EXPECT_NEAR(colour_in(front_bsdf(sole_object(scene, "shape")), "reflectance")->r, .6, .05);
   EXPECT_TRUE(tells(scene, DeviationKind::approximated, "brightfunc 'f'", "mean"));
+}
+
+// As ies2rad writes them: an intensity of 100 cosθ straight down, through a disk of 0.1 m². So its
+// radiance is 1000 everywhere; one of 100 cos⁴θ has the mean 2 ∫ 1000 cos³ cosθ sinθ dθ = 400.
+TEST(RadiancePatterns, LampsByTheirIntensity) {
+  TemporaryFolder folder;
+  for (const int power : {1, 4}) {
+    std::string numbers;
+    for (int i = 0; i <= 180; ++i) {
+      const double cosine = std::max(0.0, std::cos(0.5 * i * pi_d / 180));
+      numbers += std::to_string(100 * std::pow(cosine, power)) + "\n";
+    }
+    folder.write("x.dat", "1\n0 90 181\n" + numbers);
+    const auto scene = load_radiance(
+        folder.write("a.rad",
+                     "void brightdata x 4 flatcorr x.dat source.cal src_theta 0 1 10\n"
+                     "x light l 0 0 3 1 1 1\nl ring r 0 0 8 0 0 0 0 0 -1 0 .178\n"));
+    const Object& emitter = nested(sole_object(scene, "shape"), "emitter");
+    const double expected = power == 1 ? 1000 : 400;
+    expect_colour(emitter, "radiance", expected, expected, expected, .003 * expected);
+  }
 }
 
 TEST(RadiancePatterns, PicturesLieByTheirFunctions) {
@@ -130,11 +151,11 @@ TEST(RadiancePatterns, PicturesLieByTheirFunctions) {
       "b.rad",
       "void colorpict pic 11 red green blue p.hdr picture.cal pic_u pic_v -t 1 0 0 0 0\n"
       "pic plastic m 0 0 5 .5 .5 .5 0 0\nm polygon p 0 0 12 1 0 0 3 0 0 3 1 0 1 1 0\n"));
-  const Object& shape = only(loaded, "shape");
-  const auto uvs = numbers_in(shape, "uv");
+  const Object& shape = sole_object(loaded, "shape");
+  const auto uvs = rad_numbers(shape, "uv");
   const std::vector<double> expected = {0, 1, 1, 1, 1, 0, 0, 0};  // v from the upper edge
   for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(uvs[i], expected[i], 1e-6) << i;
-  const Object& scaled = *bsdf_of(shape).children.at(0).object;
+  const Object& scaled = *front_bsdf(shape).children.at(0).object;
   EXPECT_EQ(value<std::string>(nested(scaled, "texture"), "filename"), folder / "p.hdr");
   EXPECT_EQ(deviations_but_view(loaded), 0u);
 }
@@ -144,9 +165,9 @@ TEST(RadiancePatterns, MissingFilesAreSeen) {
       "void colorpict pic 7 red green blue none.hdr picture.cal pic_u pic_v 0 0\n"
       "pic plastic m 0 0 5 1 1 1 0 0\n");
   EXPECT_TRUE(tells(scene, DeviationKind::missing, "colorpict 'pic'", "none.hdr"));
-  const Object& checker = *bsdf_of(only(scene, "shape")).children.at(0).object;
+  const Object& checker = *front_bsdf(sole_object(scene, "shape")).children.at(0).object;
   EXPECT_EQ(checker.type, "checkerboard");
-  expect_colour(checker, "color0", 1, 0, 1);
+  expect_colour(checker, "color0", .8, 0, .8);
   const auto function =
       with_material("void brightfunc f 2 x none.cal 0 0\nf plastic m 0 0 5 .5 .5 .5 0 0\n");
   EXPECT_TRUE(tells(function, DeviationKind::ignored, "brightfunc 'f'", "none.cal"));
@@ -160,8 +181,8 @@ TEST(RadiancePatterns, FunctionsOfFiles) {
       folder.write("a.rad",
                    "void brightfunc f 2 half f.cal 0 1 .5\nf brightdata g 4 noop d.dat . 5 0 0\n"
                    "g plastic m 0 0 5 1 1 1 0 0\nm polygon p 0 0 9 0 0 0 1 0 0 1 1 0\n"));
-  expect_colour(bsdf_of(only(scene, "shape")), "reflectance", .075, .075, .075, 1e-6);
+  expect_colour(front_bsdf(sole_object(scene, "shape")), "reflectance", .075, .075, .075, 1e-6);
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::radiance_test

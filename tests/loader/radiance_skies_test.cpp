@@ -1,7 +1,7 @@
 // Light from all around: sources, gensky and gendaylit, by their irradiance in closed form.
 #include "radiance_support.h"
 
-namespace kaustik {
+namespace kaustik::radiance_test {
 namespace {
 
 const std::string glow_on_sky =
@@ -10,7 +10,7 @@ const std::string glow_on_sky =
 /// ∫ L cosθ over what lies above the ground, of a picture of all directions: bilinear between its
 /// nodes.
 double horizontal_irradiance(const Object& picture) {
-  const auto values = numbers_in(picture, "data");
+  const auto values = rad_numbers(picture, "data");
   const auto& extents = value<std::shared_ptr<const Array>>(picture, "data")->extents();
   const size_t rows = extents[0], columns = extents[1];
   double sum = 0;
@@ -30,7 +30,7 @@ double horizontal_irradiance(const Object& picture) {
 
 /// In the direction, which must be that of a node.
 double radiance_toward(const Object& picture, const Vec3d& direction) {
-  const auto values = numbers_in(picture, "data");
+  const auto values = rad_numbers(picture, "data");
   const auto& extents = value<std::shared_ptr<const Array>>(picture, "data")->extents();
   const Vec3f local = value<Transform>(picture, "to_world").inverse().vector(Vec3f(direction));
   double turn = std::atan2(double(local.x), -double(local.z)) / (2 * pi_d);
@@ -44,7 +44,7 @@ TEST(RadianceSkies, OvercastSkiesAsTheCieHasThem) {
   // E = 7/9 π L of the zenith; near the horizon Radiance's sky passes over into the ground, which
   // is black here.
   const auto scene = parse_rad("!gensky 6 21 12 -c -b 10 -g 0\n" + glow_on_sky);
-  const Object& sky = only(scene, "emitter");
+  const Object& sky = sole_object(scene, "emitter");
   EXPECT_EQ(sky.type, "envmap");
   const double closed = 7.0 / 9 * pi_d * 10, found = horizontal_irradiance(sky);
   EXPECT_NEAR(found / closed, 1, 0.012);
@@ -61,12 +61,12 @@ TEST(RadianceSkies, OvercastSkiesAsTheCieHasThem) {
 TEST(RadianceSkies, UniformSkiesByIrradiance) {
   const auto scene = parse_rad("!gensky 6 21 12 -u -B 100 -g 1\n" + glow_on_sky +
                                "sky_glow source ground 0 0 4 0 0 -1 180\n");
-  EXPECT_NEAR(horizontal_irradiance(only(scene, "emitter")), 100, 0.1);
+  EXPECT_NEAR(horizontal_irradiance(sole_object(scene, "emitter")), 100, 0.1);
 }
 
 TEST(RadianceSkies, ClearSkiesAndTheirSun) {
   const auto scene = parse_rad("!gensky -ang 40 -30 +s -b 20 -r 5e6\n" + glow_on_sky);
-  const auto lights = objects_of(scene, "emitter");
+  const auto lights = rad_objects(scene, "emitter");
   ASSERT_EQ(lights.size(), 2u);
   const Object &sun = *lights[0], &sky = *lights[1];
   EXPECT_EQ(sun.type, "sun");
@@ -84,16 +84,16 @@ TEST(RadianceSkies, ClearSkiesAndTheirSun) {
 TEST(RadianceSkies, TheSunByPlaceAndTime) {
   // At noon by the sun on the longest day in Berkeley it stands 75.6 degrees high in the south.
   const auto noon = parse_rad("!gensky 6 21 +12 -a 37.8\nvoid plastic a 0 0 5 1 1 1 0 0\n");
-  const Vec3d at_noon = value<Vec3d>(*objects_of(noon, "emitter").at(0), "sun_direction");
+  const Vec3d at_noon = value<Vec3d>(*rad_objects(noon, "emitter").at(0), "sun_direction");
   EXPECT_NEAR(std::asin(at_noon.z) * 180 / pi_d, 90 - 37.8 + 23.45, 0.3);
   EXPECT_LT(at_noon.y, 0);
   const auto later = parse_rad("!gensky 6 21 +16 -a 37.8\n");
-  EXPECT_LT(value<Vec3d>(*objects_of(later, "emitter").at(0), "sun_direction").x, -0.5);  // west
+  EXPECT_LT(value<Vec3d>(*rad_objects(later, "emitter").at(0), "sun_direction").x, -0.5);  // west
   // An hour of the clock is 15 degrees of longitude.
   const auto east = parse_rad("!gensky 3 21 12:00CET -a 48 -o 0\n");
   const auto west = parse_rad("!gensky 3 21 13:00CET -a 48 -o 15\n");
   const auto place = [](const Description& d) {
-    return value<Vec3d>(*objects_of(d, "emitter").at(0), "sun_direction");
+    return value<Vec3d>(*rad_objects(d, "emitter").at(0), "sun_direction");
   };
   EXPECT_NEAR((place(east) - place(west)).length(), 0, 1e-9);
 }
@@ -104,7 +104,7 @@ TEST(RadianceSkies, MeasuredLightComesBack) {
     SCOPED_TRACE(light);
     const auto scene =
         parse_rad(std::string("!gendaylit -ang 45 10 ") + light + " -g 0\n" + glow_on_sky);
-    const auto lights = objects_of(scene, "emitter");
+    const auto lights = rad_objects(scene, "emitter");
     const double asked = std::stod(std::string(light).substr(std::string(light).rfind(' ')));
     EXPECT_NEAR(179 * horizontal_irradiance(*lights.back()) / asked, 1, 0.03);
     if (lights.size() == 2) {
@@ -117,15 +117,15 @@ TEST(RadianceSkies, MeasuredLightComesBack) {
 
 TEST(RadianceSkies, EvenLightIsConstant) {
   const auto scene = parse_rad("void glow g 0 0 4 1 2 3 0\ng source all 0 0 4 0 0 1 360\n");
-  EXPECT_EQ(only(scene, "emitter").type, "constant");
-  expect_colour(only(scene, "emitter"), "radiance", 1, 2, 3);
+  EXPECT_EQ(sole_object(scene, "emitter").type, "constant");
+  expect_colour(sole_object(scene, "emitter"), "radiance", 1, 2, 3);
 }
 
 TEST(RadianceSkies, HalvesAndTurns) {
   TemporaryFolder folder;
   folder.write("half.rad", "void glow g 0 0 4 1 1 1 0\ng source half 0 0 4 1 0 0 180\n");
   const auto scene = load_radiance(folder.write("a.rad", "!xform -rz 90 half.rad\n"));
-  const Object& picture = only(scene, "emitter");
+  const Object& picture = sole_object(scene, "emitter");
   EXPECT_EQ(radiance_toward(picture, {0, 1, 0}), 1);
   EXPECT_EQ(radiance_toward(picture, {0, -1, 0}), 0);
   EXPECT_NEAR(horizontal_irradiance(picture), pi_d / 2, 0.01);
@@ -136,8 +136,8 @@ TEST(RadianceSkies, FunctionsOfTheDirection) {
   const auto scene = parse_rad(
       "void brightfunc f 2 'if(Dz, Dz*Dz, 0)' . 0 0\nf glow g 0 0 4 1 1 1 0\n"
       "g source sky 0 0 4 0 0 1 180\n");
-  EXPECT_NEAR(horizontal_irradiance(only(scene, "emitter")), pi_d / 2, 1e-3);
+  EXPECT_NEAR(horizontal_irradiance(sole_object(scene, "emitter")), pi_d / 2, 1e-3);
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::radiance_test

@@ -1,18 +1,18 @@
 // The grammar of Radiance's scenes: primitives, aliases, comments, commands, and what is wrong.
 #include "radiance_support.h"
 
-namespace kaustik {
+namespace kaustik::radiance_test {
 namespace {
 
 TEST(RadianceStatements, PrimitivesInAnyLayout) {
   const auto scene = parse_rad(
       "# a comment\nvoid plastic \"my paint\"\n0\n0\n5 .1 .2 .3 0 0 # behind\n\n"
       "\"my paint\" sphere ball 0 0 4\n\t1 2\n3 .5\n");
-  const Object& ball = only(scene, "shape");
+  const Object& ball = sole_object(scene, "shape");
   EXPECT_EQ(ball.type, "sphere");
   EXPECT_EQ(value<Vec3d>(ball, "center"), Vec3d(1, 2, 3));
   EXPECT_EQ(value<double>(ball, "radius"), 0.5);
-  expect_colour(bsdf_of(ball), "reflectance", .1, .2, .3);
+  expect_colour(front_bsdf(ball), "reflectance", .1, .2, .3);
   EXPECT_EQ(text_of(ball.place), "test.rad:7:1");
 }
 
@@ -20,21 +20,43 @@ TEST(RadianceStatements, TheLastDefinitionBeforeItsUseCounts) {
   const auto scene = parse_rad(
       "void plastic a 0 0 5 .1 .1 .1 0 0\na sphere s1 0 0 4 0 0 0 1\n"
       "void plastic a 0 0 5 .9 .9 .9 0 0\na sphere s2 0 0 4 5 0 0 1\n");
-  const auto balls = objects_of(scene, "shape");
+  const auto balls = rad_objects(scene, "shape");
   ASSERT_EQ(balls.size(), 2u);
-  expect_colour(bsdf_of(*balls[0]), "reflectance", .1, .1, .1);
-  expect_colour(bsdf_of(*balls[1]), "reflectance", .9, .9, .9);
+  expect_colour(front_bsdf(*balls[0]), "reflectance", .1, .1, .1);
+  expect_colour(front_bsdf(*balls[1]), "reflectance", .9, .9, .9);
 }
 
 TEST(RadianceStatements, AliasesStandForWhatIsKnown) {
   const auto scene =
       parse_rad("void plastic a 0 0 5 .1 .1 .1 0 0\nvoid alias b a\nb sphere s 0 0 4 0 0 0 1\n");
-  expect_colour(bsdf_of(only(scene, "shape")), "reflectance", .1, .1, .1);
+  expect_colour(front_bsdf(sole_object(scene, "shape")), "reflectance", .1, .1, .1);
+}
+
+TEST(RadianceStatements, AliasesMayHaveAnotherModifier) {
+  const std::string paint = "void brightfunc half 2 .5 . 0 0\nhalf plastic a 0 0 5 .8 .8 .8 0 0\n";
+  const auto reflectance = [&](const std::string& alias) {
+    return colour_in(front_bsdf(sole_object(
+                         parse_rad(paint + alias + "\nb sphere s 0 0 4 0 0 0 1\n"), "shape")),
+                     "reflectance")
+        ->r;
+  };
+  EXPECT_NEAR(reflectance("inherit alias b a"), .4, 1e-9);
+  EXPECT_NEAR(reflectance("half alias b a"), .4, 1e-9);
+  EXPECT_NEAR(reflectance("void alias b a"), .8, 1e-9);
+}
+
+TEST(RadianceStatements, MaterialsOfFilesThatAreNotThereAreGrey) {
+  const auto scene =
+      parse_rad("oak1 polygon p 0 0 9 0 0 0 1 0 0 1 1 0\noak2 sphere s 0 0 4 0 0 0 1\n");
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "modifier 'oak1'", "grey paint"));
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "modifier 'oak2'", "grey paint"));
+  for (const Object* shape : rad_objects(scene, "shape"))
+    expect_colour(front_bsdf(*shape), "reflectance", .5, .5, .5);
 }
 
 TEST(RadianceStatements, PolygonsOfOneMaterialAreOneMesh) {
   const auto scene = parse_rad(grey + square + "grey polygon p2 0 0 9 0 0 1 1 0 1 0 1 1\n");
-  EXPECT_EQ(numbers_in(only(scene, "shape"), "faces").size(), 9u);
+  EXPECT_EQ(rad_numbers(sole_object(scene, "shape"), "faces").size(), 9u);
 }
 
 void expect_wrong(const std::string& text, const std::string& place, const std::string& message,
@@ -59,6 +81,14 @@ TEST(RadianceErrors, HaveAPlaceAndARemedy) {
   expect_wrong(grey + "grey polygon", "test.rad:2:12", "the file ends where", "cut off");
   expect_wrong(grey + "grey polygon p 0 0 8 0 0 0 1 0 0 1 1", "test.rad:2:1", "no corners",
                "three numbers");
+}
+
+TEST(RadianceErrors, NumbersOutOfAllBounds) {
+  const std::string light = "void light l 0 0 3 1 1 1\n";
+  EXPECT_TRUE(tells(parse_rad(light + "l source s 0 0 4 0 0 -1e308 .5\n"), DeviationKind::ignored,
+                    "source 's'"));
+  EXPECT_TRUE(tells(parse_rad(grey + "!genbox grey b 1 1 1 | xform -s 1e200 -s 1e200\n"),
+                    DeviationKind::ignored, "polygon 'b.1'", "no area"));
 }
 
 TEST(RadianceErrors, CommandsAreNeverRun) {
@@ -112,9 +142,10 @@ TEST(RadianceErrors, StrictMakesErrorsOfDeviations) {
   LoadOptions strict;
   strict.is_strict = true;
   const auto problems = problems_of([&] { parse_rad(grey + square, strict); });
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_NE(problems[0].message.find("no view"), std::string::npos);
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_NE(problems[0].message.find("camera"), std::string::npos) << problems[0].message;
+  EXPECT_NE(problems[1].message.find("light"), std::string::npos) << problems[1].message;
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::radiance_test

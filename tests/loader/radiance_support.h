@@ -1,6 +1,7 @@
 #pragma once
 // What the tests of Radiance's scenes share.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -10,7 +11,7 @@
 #include "kaustik/loader/radiance/radiance_scene.h"
 #include "loader_support.h"
 
-namespace kaustik {
+namespace kaustik::radiance_test {
 
 inline constexpr double pi_d = std::numbers::pi;
 
@@ -18,16 +19,27 @@ inline Description parse_rad(const std::string& text, const LoadOptions& options
   return parse_radiance(text, "test.rad", "", options);
 }
 
-inline std::vector<const Object*> objects_of(const Description& description,
-                                             const std::string& family) {
+/// Scenes that nothing lights get light of the reader's own, which is of no interest here.
+inline bool is_in_studio(const Description& description) {
+  return std::any_of(description.deviations.begin(), description.deviations.end(),
+                     [](const Deviation& deviation) { return deviation.object == "light"; });
+}
+
+inline std::vector<const Object*> rad_objects(const Description& description,
+                                              const std::string& family) {
   std::vector<const Object*> found;
-  for (const Child& child : description.scene->children)
-    if (child.object->family == family) found.push_back(child.object.get());
+  const bool is_studio = is_in_studio(description);
+  for (const Child& child : description.scene->children) {
+    const Object& object = *child.object;
+    if (object.family != family) continue;
+    if (is_studio && (object.type == "rectangle" || object.type == "constant")) continue;
+    found.push_back(&object);
+  }
   return found;
 }
 /// The only one.
-inline const Object& only(const Description& description, const std::string& family) {
-  const auto found = objects_of(description, family);
+inline const Object& sole_object(const Description& description, const std::string& family) {
+  const auto found = rad_objects(description, family);
   if (found.size() != 1)
     throw std::runtime_error(std::to_string(found.size()) + " objects of " + family);
   return *found[0];
@@ -41,19 +53,19 @@ inline const Object& nested(const Object& object, const std::string& family,
   throw std::runtime_error("no " + family + " in " + object.type);
 }
 /// Of a material behind `twosided`.
-inline const Object& bsdf_of(const Object& shape) {
+inline const Object& front_bsdf(const Object& shape) {
   const Object& bsdf = nested(shape, "bsdf");
   return bsdf.type == "twosided" ? nested(bsdf, "bsdf") : bsdf;
 }
 
-inline std::vector<double> numbers_in(const Object& object, const std::string& name) {
+inline std::vector<double> rad_numbers(const Object& object, const std::string& name) {
   const auto& array = *value<std::shared_ptr<const Array>>(object, name);
   return array.visit([](auto values) { return std::vector<double>(values.begin(), values.end()); });
 }
 
 /// The triangles of a mesh, three corners each.
 inline std::vector<Vec3d> triangles_of(const Object& mesh) {
-  const auto positions = numbers_in(mesh, "positions"), faces = numbers_in(mesh, "faces");
+  const auto positions = rad_numbers(mesh, "positions"), faces = rad_numbers(mesh, "faces");
   std::vector<Vec3d> corners;
   for (const double face : faces) {
     const size_t i = 3 * size_t(face);
@@ -92,11 +104,11 @@ inline bool tells(const Description& description, DeviationKind kind, const std:
       return true;
   return false;
 }
-/// What is told beside the view that scenes without one get.
+/// What is told beside the camera and the light that scenes without one get.
 inline size_t deviations_but_view(const Description& description) {
   size_t count = 0;
   for (const Deviation& deviation : description.deviations)
-    if (deviation.object != "view") ++count;
+    if (deviation.object != "camera" && deviation.object != "light") ++count;
   return count;
 }
 
@@ -117,4 +129,4 @@ inline void expect_colour(const Object& object, const std::string& name, double 
   EXPECT_NEAR(colour->b, b, tolerance) << name;
 }
 
-}  // namespace kaustik
+}  // namespace kaustik::radiance_test

@@ -1,7 +1,7 @@
 // Views of Radiance, and rad's control files.
 #include "radiance_support.h"
 
-namespace kaustik {
+namespace kaustik::radiance_test {
 namespace {
 
 const double one_degree = std::numbers::pi / 180;
@@ -23,7 +23,7 @@ TEST_F(RadianceViews, Perspective) {
   const auto scene =
       with_view("nice -vtv -vp 1 2 3 -vd 0 2 0 -vu 0 0 1 -vh 60 -vv 40 -vs .1 -vl -.2 -vo 1 -va 50",
                 "RESOLUTION= 800\nEXPOSURE= +2\n");
-  const Object& camera = only(scene, "sensor");
+  const Object& camera = sole_object(scene, "sensor");
   EXPECT_EQ(camera.type, "perspective");
   EXPECT_EQ(camera.id, "nice");
   EXPECT_EQ(*number_in(camera, "fov"), 60);
@@ -40,14 +40,14 @@ TEST_F(RadianceViews, Perspective) {
   EXPECT_EQ(value<int64_t>(film, "height"),
             std::lround(800 * std::tan(20 * one_degree) / std::tan(30 * one_degree)));
   EXPECT_EQ(value<double>(film, "exposure"), 2);
-  EXPECT_EQ(scene.deviations.size(), 0u);
+  EXPECT_EQ(deviations_but_view(scene), 0u);
   EXPECT_EQ(scene.sources.size(), 3u);
 }
 
 TEST_F(RadianceViews, Parallel) {
   const auto scene =
       with_view("plan -vtl -vp 0 0 9 -vd 0 0 -1 -vu 0 1 0 -vh 8 -vv 4 -vs .5 -vl .25");
-  const Object& camera = only(scene, "sensor");
+  const Object& camera = sole_object(scene, "sensor");
   EXPECT_EQ(camera.type, "orthographic");
   const auto& placed = value<Transform>(camera, "to_world");
   EXPECT_NEAR(placed.vector({1, 0, 0}).length(), 4, 1e-5);
@@ -60,7 +60,7 @@ TEST_F(RadianceViews, Fisheyes) {
        {std::pair("a", "equidistant"), {"h", "hemispherical"}, {"s", "stereographic"}}) {
     const auto scene =
         with_view(std::string("-vt") + letter + " -vd 0 0 1 -vu 0 1 0 -vh 180 -vv 180");
-    const Object& camera = only(scene, "sensor");
+    const Object& camera = sole_object(scene, "sensor");
     EXPECT_EQ(camera.type, "fisheye");
     EXPECT_EQ(value<std::string>(camera, "mapping"), mapping);
     EXPECT_EQ(*number_in(camera, "fov"), 180);
@@ -70,15 +70,15 @@ TEST_F(RadianceViews, Fisheyes) {
 
 TEST_F(RadianceViews, Cylinder) {
   const auto scene = with_view("-vtc -vh 360 -vv 90", "RESOLUTION= 2000 1000\n");
-  EXPECT_EQ(only(scene, "sensor").type, "cylinder");
-  EXPECT_EQ(value<int64_t>(nested(only(scene, "sensor"), "film"), "height"),
+  EXPECT_EQ(sole_object(scene, "sensor").type, "cylinder");
+  EXPECT_EQ(value<int64_t>(nested(sole_object(scene, "sensor"), "film"), "height"),
             std::lround(2000 * 2 / (2 * std::numbers::pi)));
 }
 
 TEST_F(RadianceViews, SeveralAndFromFiles) {
   folder_.write("eye.vf", "rvu -vtv -vp 0 0 1 -vd 0 1 0\n");
   const auto scene = with_view("one -vtv -vh 30\nview= two -vf eye.vf -vh 20");
-  const auto cameras = objects_of(scene, "sensor");
+  const auto cameras = rad_objects(scene, "sensor");
   ASSERT_EQ(cameras.size(), 2u);
   EXPECT_EQ(cameras[1]->id, "two");
   EXPECT_EQ(*number_in(*cameras[1], "fov"), 20);
@@ -87,16 +87,34 @@ TEST_F(RadianceViews, SeveralAndFromFiles) {
 TEST_F(RadianceViews, AViewFileShowsTheSceneBesideIt) {
   with_view("one -vtv");
   const auto scene = load_radiance(folder_.write("eye.vf", "rvu -vtv -vp 0 0 7 -vd 0 1 0\n"));
-  const auto cameras = objects_of(scene, "sensor");
+  const auto cameras = rad_objects(scene, "sensor");
   ASSERT_EQ(cameras.size(), 2u);
   EXPECT_EQ(cameras[0]->id, "eye");
   EXPECT_EQ(value<Transform>(*cameras[0], "to_world").point({0, 0, 0}).z, 7);
 }
 
-TEST_F(RadianceViews, ScenesWithoutAViewShowAll) {
+TEST_F(RadianceViews, ScenesWithoutAViewShowAllFromAbove) {
   const auto scene = parse_rad(grey + square);
-  EXPECT_EQ(only(scene, "sensor").type, "perspective");
-  EXPECT_TRUE(tells(scene, DeviationKind::approximated, "view"));
+  const Object& camera = sole_object(scene, "sensor");
+  EXPECT_EQ(camera.type, "perspective");
+  const auto& placed = value<Transform>(camera, "to_world");
+  EXPECT_GT(placed.point({0, 0, 0}).z, 0.5);
+  EXPECT_LT(placed.vector({0, 0, 1}).z, 0);
+  EXPECT_GT(placed.vector({0, 1, 0}).z, 0.5);
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "camera"));
+}
+
+TEST_F(RadianceViews, ScenesWithoutLightGetSomeFromAbove) {
+  const auto scene = parse_rad(grey + square);
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "light"));
+  for (const Child& child : scene.scene->children)
+    if (child.object->type == "rectangle") {
+      EXPECT_GT(value<Transform>(*child.object, "to_world").point({0, 0, 0}).z, 1);
+    }
+  EXPECT_FALSE(tells(parse_rad(grey + square +
+                               "void light l 0 0 3 1 1 1\n"
+                               "l sphere s 0 0 4 0 0 5 1\n"),
+                     DeviationKind::missing, "light"));
 }
 
 TEST_F(RadianceViews, MistakesHaveAPlaceAndARemedy) {
@@ -115,4 +133,4 @@ TEST_F(RadianceViews, MistakesHaveAPlaceAndARemedy) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::radiance_test

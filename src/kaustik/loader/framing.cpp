@@ -93,6 +93,17 @@ class BoundsFinder {
       const Vec3f middle = center ? Vec3f(*center) : Vec3f(0, 0, 0);
       return {middle - Vec3f(radius), middle + Vec3f(radius)};
     }
+    if (shape.type == "cylinder") {
+      const auto radius = float(number_in(shape, "radius").value_or(1));
+      Bounds3f bounds;
+      for (const auto& [end, usual] : {std::pair("p0", 0.f), {"p1", 1.f}}) {
+        const auto* given = value_in<Vec3d>(shape, end);
+        const Vec3f point = given ? Vec3f(*given) : Vec3f(0, 0, usual);
+        bounds.extendBy(point - Vec3f(radius));
+        bounds.extendBy(point + Vec3f(radius));
+      }
+      return bounds;
+    }
     return {};
   }
 
@@ -157,8 +168,8 @@ std::shared_ptr<Object> film_of_aspect(double aspect, const Place& place) {
 }
 
 Framing::Framing(Description& description, Deviations& deviations,
-                 const std::map<std::string, Bounds3f>& obj_bounds)
-    : description_(description), deviations_(deviations) {
+                 const std::map<std::string, Bounds3f>& obj_bounds, UpAxis up)
+    : description_(description), deviations_(deviations), up_(up) {
   const Bounds3f bounds = BoundsFinder(obj_bounds).of_children(*description.scene);
   if (bounds.isEmpty()) return;
   const double radius = double(bounding_radius(bounds));
@@ -172,9 +183,10 @@ void Framing::add_missing_camera() {
   if (has_any(scene, "sensor")) return;
   constexpr double margin = 1.05;
   const double half_angle = lens_degrees / 2 * std::numbers::pi / 180;
-  const Vec3d origin = middle_ + direction_to_camera() * (margin * radius_ / std::sin(half_angle));
+  const Vec3d origin =
+      middle_ + turned(direction_to_camera()) * (margin * radius_ / std::sin(half_angle));
   auto sensor = make_object("sensor", "perspective", scene.place);
-  give(*sensor, "to_world", Transform::look_at(origin, middle_, {0, 1, 0}));
+  give(*sensor, "to_world", Transform::look_at(origin, middle_, turned({0, 1, 0})));
   give(*sensor, "fov", lens_degrees);
   give(*sensor, "fov_axis", "smaller");
   put(*sensor, "", film_of_aspect(0, scene.place));
@@ -198,14 +210,14 @@ void Framing::add_studio_light() {
   const double form_factor = 4 * half_side * half_side / (distance * distance);
   const Vec3d to_camera = direction_to_camera();
   const Vec3d right = Vec3d(0, 1, 0).cross(to_camera).normalized();
-  const Vec3d to_lamp = (to_camera - right * 0.6 + Vec3d(0, 0.8, 0)).normalized();
+  const Vec3d to_lamp = turned((to_camera - right * 0.6 + Vec3d(0, 0.8, 0)).normalized());
   auto around = make_object("emitter", "constant", scene.place);
   give(*around, "radiance", even * white);
   put(scene, "", around);
   auto lamp = make_object("shape", "rectangle", scene.place);
   const double side = half_side * radius_;
   give(*lamp, "to_world",
-       Transform::look_at(middle_ + to_lamp * (distance * radius_), middle_, {0, 1, 0}) *
+       Transform::look_at(middle_ + to_lamp * (distance * radius_), middle_, turned({0, 1, 0})) *
            Transform::scale({side, side, 1}));
   auto area = make_object("emitter", "area", scene.place);
   give(*area, "radiance", (1 - even) * white * std::numbers::pi / form_factor);

@@ -117,6 +117,18 @@ void FilesToWrite::use_exr(const std::shared_ptr<Object>& bitmap, const Rgb& fac
   use(key, bitmap, source, factor, ".exr");
 }
 
+void FilesToWrite::use_exr_around(const std::shared_ptr<Object>& envmap) {
+  Object source = *envmap;
+  source.family = "texture";
+  source.type = "bitmap";
+  source.children.clear();
+  std::erase_if(source.properties, [](const Property& p) { return p.name != "data"; });
+  const std::string key = key_of(source, {"data"});
+  source.properties.push_back({"raw", true, envmap->place});
+  remove_property(*envmap, "data");
+  use(key, envmap, source, {1, 1, 1}, ".exr");
+}
+
 void FilesToWrite::use_vol(const std::shared_ptr<Object>& volume) {
   const Object source = *volume;
   remove_property(*volume, "data");

@@ -32,6 +32,8 @@ class FilesToWrite {
   void use_ply(const std::shared_ptr<Object>& shape, const Object& source);
   /// The bitmap shows a new EXR file, with its picture's values times a factor, linear.
   void use_exr(const std::shared_ptr<Object>& bitmap, const Rgb& factor);
+  /// An `envmap` whose picture is a buffer shows a new EXR file.
+  void use_exr_around(const std::shared_ptr<Object>& envmap);
   /// The volume has the samples of its buffer from a new VOL file.
   void use_vol(const std::shared_ptr<Object>& volume);
 

@@ -103,6 +103,7 @@ class Translator {
       const Rgb factor = scaling_.factor_of(*object);
       if (factor != Rgb{1, 1, 1} || needs_exr(*object)) files_.use_exr(object, factor);
     }
+    if (object->type == "envmap" && find_property(*object, "data")) files_.use_exr_around(object);
     if (object->family == "volume" && find_property(*object, "data")) files_.use_vol(object);
     if (object->family != "scene") name_what_is_unknown(*object);
     for (const Child& child : object->children) finish(child.object, seen);
@@ -164,6 +165,7 @@ class Translator {
 
   void use_sunsky(Object& emitter) {
     if (emitter.type != "sun" && emitter.type != "sky" && emitter.type != "sunsky") return;
+    if (find_property(emitter, "irradiance")) return;  // there it is by turbidity alone
     result_.version = "3.7.0";  // the first that has it, and means units of Mitsuba
     const Property* units = find_property(emitter, "units");
     const auto* name = units ? std::get_if<std::string>(&units->value) : nullptr;

@@ -79,7 +79,7 @@ const std::vector<SceneFormat>& scene_formats() {
       {"pbrt", {".pbrt"}, is_pbrt, load_pbrt, parse_pbrt},
       {"glTF", {".gltf", ".glb"}, is_gltf, load_gltf, parse_gltf},
       {"OBJ", {".obj"}, is_obj, load_obj_scene, parse_obj_scene},
-      {"Radiance", {".rad", ".rif", ".vf"}, is_radiance, load_radiance, parse_radiance}};
+      {"Radiance", {".rad", ".rif", ".vf", ".oct"}, is_radiance, load_radiance, parse_radiance}};
   return formats;
 }
 

@@ -120,6 +120,10 @@ constexpr auto functions = std::to_array<CalFunction>({
     {"noise3c", 3, [](D a) { return cal_noise(3, a[0], a[1], a[2]); }},
     {"fnoise3", 3, fractal_noise},
     {"turbulence", 4, turbulence},
+    {"noise3x", 3, [](D a) { return cal_noise(1, a[0], a[1], a[2]); }},
+    {"noise3y", 3, [](D a) { return cal_noise(2, a[0], a[1], a[2]); }},
+    {"noise3z", 3, [](D a) { return cal_noise(3, a[0], a[1], a[2]); }},
+    {"xor", 2, [](D a) { return a[0] > 0 ? (a[1] > 0 ? -1.0 : 1.0) : a[1]; }},
     {"and", 2, [](D a) { return a[0] > 0 ? a[1] : a[0]; }},
     {"or", 2, [](D a) { return a[0] > 0 ? a[0] : a[1]; }},
     {"not", 1, [](D a) { return a[0] > 0 ? -1.0 : 1.0; }},
@@ -193,10 +197,36 @@ width`picture = max(1, 1 / pic_aspect); height`picture = max(1, pic_aspect);
 wide`picture = if(pic_aspect - 1, 1, 1 / pic_aspect);
 high`picture = if(pic_aspect - 1, pic_aspect, 1);
 inpic = if(min(min(pic_u, pic_v), min(wide`picture - pic_u, high`picture - pic_v)), 1, 0);
+stag_row`picture = frac(pic_v / height`picture / 2) - .5;
+stag_u = mod(if(stag_row`picture, pic_u, pic_u + width`picture / 2), width`picture);
+stag_v = mod(pic_v, height`picture);
 tile_u = mod(pic_u, width`picture); tile_v = mod(pic_v, height`picture);
 match_u = tri(pic_u, width`picture); match_v = tri(pic_v, height`picture);
 fadered(r,g,b) = fade(r, A2, T*.1); fadegreen(r,g,b) = fade(g, A3, T*.1);
 fadeblue(r,g,b) = fade(b, A4, T*.1); fadegrey(r,g,b) = fade(grey(r,g,b), A2, T*.1);
+)";
+  // Rings of wood about an axis, in cells 50 wide; dark where one ends.
+  if (name == "woodpat.cal")
+    return R"(
+xgrain = grain`wood(Py, Pz); ygrain = grain`wood(Px, Pz); zgrain = grain`wood(Px, Py);
+grain`wood(a, b) = shade`wood(frac(depth`wood(mod(a, 50) - 25, mod(b, 50) - 25)));
+depth`wood(a, b) = sqrt(a*a + b*b + 25) + 7 * fnoise3(Px/40, Py/40, Pz/40);
+shade`wood(t) = .6 + A1 * (if(t - .5, 2 - 2*t, 2*t) - .5);
+)";
+  // Lamps by ies2rad: their intensity over the area that is seen of them. Angles in degrees, from
+  // straight down, and about the z axis from +x.
+  if (name == "source.cal")
+    return R"(
+corr(v) = max(0, if(AC - .5, A1 * v, v));
+flatcorr(v) = corr(v) / Rdot;
+boxcorr(v) = corr(v) / (abs(Dx)*A3*A4 + abs(Dy)*A2*A4 + abs(Dz)*A2*A3);
+lboxcorr(v) = boxcorr(v);
+cylcorr(v) = corr(v) / (A2*A3*Sqrt(1 - Dz*Dz) + PI/4 * A2*A2 * abs(Dz));
+src_theta = Acos(Dz) / DEGREE;
+src_phi = mod(Atan2(-Dy, -Dx) / DEGREE, 360);
+src_phi2 = tri(src_phi, 180); src_phi4 = tri(src_phi, 90);
+srcB_vert = Atan2(-Dx, Dz) / DEGREE; srcB_horiz = Atan2(Dy, Dz) / DEGREE;
+srcB_vert2 = abs(srcB_vert); srcB_horiz2 = abs(srcB_horiz);
 )";
   return "";
 }

@@ -11,6 +11,7 @@
 #include "kaustik/loader/radiance/angles.h"
 #include "kaustik/loader/radiance/cal_program.h"
 #include "kaustik/loader/radiance/placement.h"
+#include "kaustik/loader/radiance/surface_parts.h"
 
 namespace kaustik::radiance {
 namespace {
@@ -46,7 +47,8 @@ void EnvironmentMaker::add(const Primitive& primitive, const Transform& placed,
   const Look look = look_of(modifier);
   const auto radiance = look.material ? MaterialMaker::radiance_of(*look.material) : std::nullopt;
   if (!radiance) return ignored("its modifier is no light, and it is left out");
-  if (!(direction.length() > 0) || degrees <= 0) return ignored("it has no direction or no size");
+  if (!(direction.length() > 0) || !is_usable(direction) || degrees <= 0)
+    return ignored("it has no direction or no size");
   if (largest_of(*radiance) <= 0) return;
   if (const std::string remark = luminance_remark(*radiance); !remark.empty())
     deviations_.approximated(name_of(primitive), remark, primitive.place);

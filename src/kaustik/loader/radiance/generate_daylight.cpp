@@ -173,6 +173,8 @@ DaylightOptions read_options(CommandArguments& arguments, SunPlaceReader& reader
       options.reflectance = arguments.number();
     } else if (option == "-s" || option == "+s") {
       options.has_sun = option == "+s";
+    } else if (option == "-i") {
+      arguments.number();  // minutes that are averaged; counts at sunrise and sunset alone
     } else if (option != "-w") {
       arguments.refuse(fmt::format("'gendaylit' has no option '{}' here", option.substr(0, 40)));
     }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/loader/stand_ins.h"
+
 namespace kaustik::radiance {
 
 Paint Paint::times(double factor) const { return {radiance::times(colour_, factor), texture_}; }
@@ -50,13 +52,7 @@ ObjectPointer clear_pane(const Paint& paint, const Place& place) {
 }
 
 ObjectPointer picture_texture(const PicturePattern& picture, const Place& place) {
-  if (picture.file().empty()) {
-    const ObjectPointer checker = make_object("texture", "checkerboard", place);
-    give(*checker, "color0", Rgb{1, 0, 1});
-    give(*checker, "color1", Rgb{0, 0, 0});
-    give(*checker, "to_uv", Transform::scale({8, 8, 1}));
-    return checker;
-  }
+  if (picture.file().empty()) return missing_texture(place);
   const ObjectPointer bitmap = make_object("texture", "bitmap", place);
   give(*bitmap, "filename", picture.file());
   give(*bitmap, "wrap_mode", std::string(picture.repeats ? "repeat" : "clamp"));

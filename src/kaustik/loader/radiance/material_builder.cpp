@@ -88,7 +88,7 @@ void MaterialBuilder::build(Appearance& made) {
     made.bsdf = two_sided(ward_bsdf(paint(colour(0, 0.5)), Paint(clamped(colour(3))),
                                     std::sqrt(2 / (2 + std::max(real(6, 10), 0.0))),
                                     std::sqrt(2 / (2 + std::max(real(7, 10), 0.0))), place_));
-  } else if (type == "BRTDfunc") {
+  } else if (type == "BRTDfunc" || type == "WGMDfunc") {
     build_by_parts(made, 0, 6, "its functions are left out: its matt parts stay");
   } else if (type == "BSDF" || type == "aBSDF") {
     build_measured(made);

@@ -29,10 +29,7 @@ ModifierPointer Modifiers::find(const std::string& name, const Place& place) con
   if (name == "void") return nullptr;
   const auto found = known_.find(name);
   if (found != known_.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& entry : known_)
-    if (names.size() < 10'000) names.push_back(entry.first);
-  const std::string nearest = nearest_name(name, names);
+  const std::string nearest = nearest_to(name);
   throw Error(ErrorKind::input, fmt::format("no modifier '{}' is defined before", name),
               nearest.empty()
                   ? "define the material above its use, load a file that has all of the scene "
@@ -41,16 +38,34 @@ ModifierPointer Modifiers::find(const std::string& name, const Place& place) con
               place);
 }
 
+std::string Modifiers::nearest_to(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& entry : known_)
+    if (names.size() < 10'000 && !stand_ins_.contains(entry.first)) names.push_back(entry.first);
+  return nearest_name(name, names);
+}
+
+bool Modifiers::is_unheard_of(const std::string& name) const {
+  return name != "void" && !known_.contains(name) && nearest_to(name).empty();
+}
+
+void Modifiers::define_stand_in(const std::shared_ptr<const Primitive>& primitive) {
+  stand_ins_.insert(primitive->id);
+  define(primitive, {});
+}
+
 void Modifiers::define(std::shared_ptr<const Primitive> primitive, const Transform& placed) {
   const Place& place = primitive->place;
   if (primitive->type == "alias") {
     const ModifierPointer target = find(primitive->strings.at(0), place);
     ModifierPointer made = target;
-    // With a modifier of its own it is a copy of what it stands for.
-    if (primitive->modifier != "inherit" && primitive->modifier != "void" && target) {
+    // With another modifier than what it stands for it is a copy of that.
+    const ModifierPointer below =
+        primitive->modifier == "inherit" ? nullptr : find(primitive->modifier, place);
+    if (primitive->modifier != "inherit" && target && below != target->below) {
       auto copy = std::make_shared<Modifier>(*target);
-      copy->below = find(primitive->modifier, place);
-      copy->depth = std::max(copy->depth, copy->below ? copy->below->depth + 1 : 0);
+      copy->below = below;
+      copy->depth = std::max(copy->depth, below ? below->depth + 1 : 0);
       if (copy->depth > deepest)
         throw Error(ErrorKind::input, fmt::format("more than {} modifiers hang together", deepest),
                     "shorten the chain", place);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,13 +36,20 @@ class Modifiers {
 
   /// Of a modifier, a surface or an alias. Throws Error(input) where nothing has that name.
   ModifierPointer find(const std::string& name, const Place& place) const;
+  /// Whether nothing has that name, nor one that is like it but for those that stand in.
+  bool is_unheard_of(const std::string& name) const;
+  /// Defines what stands in for a modifier that is not there.
+  void define_stand_in(const std::shared_ptr<const Primitive>& primitive);
   /// Defines a modifier or an alias. One that is there already, from the same place in a file and
   /// under what is the same, stays: so copies of objects share their materials. Throws Error(input)
   /// for names of nothing, and chains that are too long.
   void define(std::shared_ptr<const Primitive> primitive, const Transform& placed);
 
  private:
+  std::string nearest_to(const std::string& name) const;
+
   std::map<std::string, ModifierPointer> known_;
+  std::set<std::string> stand_ins_;
   std::vector<ModifierPointer> all_;  ///< kept, for others know them by their addresses
 };
 

@@ -6,20 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "kaustik/scene/description.h"
+#include "kaustik/loader/object_maker.h"
 
 namespace kaustik::radiance {
 
 using ObjectPointer = std::shared_ptr<Object>;
 
-inline ObjectPointer make_object(std::string family, std::string type, const Place& place) {
-  return std::make_shared<Object>(Object{std::move(family), std::move(type), "", {}, {}, place});
-}
-inline void give(Object& object, std::string name, Value value) {
-  object.properties.push_back({std::move(name), std::move(value), object.place});
-}
 inline void nest(Object& object, ObjectPointer child, std::string name = {}) {
-  object.children.push_back({std::move(name), std::move(child)});
+  put(object, std::move(name), std::move(child));
 }
 
 }  // namespace kaustik::radiance

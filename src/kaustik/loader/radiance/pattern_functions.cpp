@@ -38,7 +38,6 @@ PatternFunctions::PatternFunctions(std::string_view source,
   evaluator_->set("S", scale_of(own_from_world_));
   for (const char* name : {"T", "Ts"}) evaluator_->set(name, 0);
   for (const char* name : {"CrP", "CgP", "CbP"}) evaluator_->set(name, 1);
-  for (const char* name : {"Lu", "Lv"}) evaluator_->set(name, 0);
 }
 
 void PatternFunctions::set(const char* const (&names)[3], const Vec3d& v) {
@@ -55,6 +54,8 @@ void PatternFunctions::stand_at(const PatternPoint& point) {
   const double cosine = -n.dot(d);
   evaluator_->set("Rdot", cosine);
   evaluator_->set("RdotP", cosine);
+  evaluator_->set("Lu", point.u);
+  evaluator_->set("Lv", point.v);
 }
 
 double PatternFunctions::value(size_t expression) {

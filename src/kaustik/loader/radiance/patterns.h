@@ -17,6 +17,7 @@ struct PatternPoint {
   Vec3d position;
   Vec3d normal{0, 0, 1};      ///< unit
   Vec3d direction{0, 0, -1};  ///< of the ray that comes from the eye, unit
+  double u = 0, v = 0;        ///< of compiled meshes: their own coordinates
 };
 
 /// A factor on the colour. Not for several threads at once.

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <vector>
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/text_lines.h"
+#include "kaustik/loader/framing.h"
+#include "kaustik/loader/radiance/compiled_reader.h"
 #include "kaustik/loader/radiance/reader.h"
 #include "kaustik/loader/radiance/rif_file.h"
 #include "kaustik/loader/radiance/views.h"
@@ -38,6 +41,10 @@ class SceneLoader {
   Description load(const std::string& path) {
     const Place whole = place_in(path);
     const std::string text = files_.text_of(path, whole);
+    if (is_compiled(text, "Radiance_octree")) {
+      reader_.read_file(path, whole);
+      return finish({}, {}, whole);
+    }
     if (begins_as_view(text) || is_called(path, {".vf", ".vp"})) return load_view(path, text);
     if (begins_as_rif(text) || is_called(path, {".rif"})) return load_rif(path, text);
     files_.trust(path);
@@ -147,15 +154,12 @@ class SceneLoader {
 
   Description finish(std::vector<View> views, const PictureOptions& picture, const Place& whole) {
     reader_.finish();
-    if (views.empty()) {
-      views.push_back(view_of_all(reader_.bounds(), whole));
-      deviations_.approximated("view",
-                               "the scene has no view: one of all of it stands for it (a .rif "
-                               "file can have views)",
-                               whole);
-    }
     for (const View& view : views) nest(*scene_, camera_of(view, picture, deviations_));
     Description description{scene_};
+    scene_->place = whole;
+    Framing framing(description, deviations_, {}, UpAxis::z);
+    framing.add_missing_camera();
+    if (!is_lit(description)) framing.add_studio_light();
     description.sources.assign(files_.sources().begin(), files_.sources().end());
     description.is_strict = options_.is_strict;
     deviations_.finish(description, options_.is_strict);
@@ -172,18 +176,43 @@ class SceneLoader {
 }  // namespace
 }  // namespace radiance
 
+namespace {
+
+/// Transforms out of all bounds, of views and of the scene as a whole.
+template <typename Read>
+Description within_bounds(const Read& read, const std::string& name) {
+  try {
+    return read();
+  } catch (const std::invalid_argument&) {
+    throw Error(ErrorKind::input, "a view, or all of the scene, is larger than numbers go",
+                "check the numbers of views (-vp, -vd, -vu), and of the scene's transforms",
+                place_in(name));
+  }
+}
+
+}  // namespace
+
 bool is_radiance(std::string_view head) {
-  return radiance::begins_as_rif(head) || radiance::begins_as_view(head) ||
-         radiance::begins_as_statements(head);
+  return radiance::is_compiled(head, "Radiance_octree") || radiance::begins_as_rif(head) ||
+         radiance::begins_as_view(head) || radiance::begins_as_statements(head);
 }
 
 Description load_radiance(const std::string& path, const LoadOptions& options) {
-  return radiance::SceneLoader(std::filesystem::path(path).parent_path(), options).load(path);
+  return within_bounds(
+      [&] {
+        return radiance::SceneLoader(std::filesystem::path(path).parent_path(), options).load(path);
+      },
+      path);
 }
 
 Description parse_radiance(std::string_view text, std::string name_for_messages,
                            const std::string& base_folder, const LoadOptions& options) {
-  return radiance::SceneLoader(base_folder, options).parse(text, name_for_messages, base_folder);
+  return within_bounds(
+      [&] {
+        return radiance::SceneLoader(base_folder, options)
+            .parse(text, name_for_messages, base_folder);
+      },
+      name_for_messages);
 }
 
 }  // namespace kaustik

@@ -60,11 +60,12 @@ SceneReader::SceneReader(SceneFiles& files, Deviations& deviations, Object& scen
       scene_(scene) {}
 
 void SceneReader::read_file(const fs::path& path, const Place& place) {
-  walk_file(path, {{}, false, std::nullopt, path.parent_path()}, place);
+  walk_file(path, {{}, false, std::nullopt, std::nullopt, path.parent_path()}, place);
 }
 
 void SceneReader::read_statements_of(const Statements& statements, const fs::path& folder) {
-  walk(std::make_shared<const Statements>(statements), {{}, false, std::nullopt, folder});
+  walk(std::make_shared<const Statements>(statements),
+       {{}, false, std::nullopt, std::nullopt, folder});
 }
 
 void SceneReader::walk_file(const fs::path& path, const Frame& frame, const Place& place) {
@@ -101,25 +102,50 @@ void SceneReader::walk(const std::shared_ptr<const Statements>& statements, cons
   --depth_;
 }
 
-void SceneReader::read(const std::shared_ptr<const Primitive>& primitive, const Frame& frame) {
-  files_.budget().spend(bytes_of(*primitive), primitive->place);
-  const Kind kind = kind_of(primitive->type);
-  if (kind != Kind::surface) return modifiers_.define(primitive, frame.placed);
-  const ModifierPointer modifier =
-      modifiers_.find(frame.modifier.value_or(primitive->modifier), primitive->place);
-  if (primitive->type == "source")
-    return environment_.add(*primitive, frame.placed, modifier.get());
-  if (primitive->type == "instance" || primitive->type == "mesh")
-    return leave_out_instance(*primitive);
-  surfaces_.add({primitive.get(), frame.placed, frame.is_inverted, modifier.get()});
+void SceneReader::stand_in_for(const std::string& modifier, const Place& place) {
+  if (!modifiers_.is_unheard_of(modifier)) return;
+  Primitive paint;
+  paint.modifier = "void";
+  paint.type = "plastic";
+  paint.id = modifier;
+  paint.reals = {0.5, 0.5, 0.5, 0, 0};
+  paint.place = place;
+  deviations_.missing(
+      fmt::format("modifier '{}'", modifier.substr(0, 60)),
+      "nothing defines it before: grey paint stands for it (a .rif file names the materials, too)",
+      place);
+  modifiers_.define_stand_in(std::make_shared<const Primitive>(std::move(paint)));
 }
 
-void SceneReader::leave_out_instance(const Primitive& primitive) {
-  const bool is_mesh = primitive.type == "mesh";
-  deviations_.missing(name_of(primitive),
-                      is_mesh ? "compiled meshes (.rtm) cannot be read: it is left out"
-                              : "octrees (.oct) cannot be read: it is left out",
-                      primitive.place);
+ModifierPointer SceneReader::modifier_of(const Primitive& surface, const Frame& frame) {
+  if (frame.given) return *frame.given;
+  const std::string& name = frame.modifier ? *frame.modifier : surface.modifier;
+  stand_in_for(name, surface.place);
+  return modifiers_.find(name, surface.place);
+}
+
+void SceneReader::read(const std::shared_ptr<const Primitive>& primitive, const Frame& frame) {
+  try {
+    read_checked(primitive, frame);
+  } catch (const std::invalid_argument&) {
+    throw Error(ErrorKind::input,
+                fmt::format("{} is larger or smaller than numbers go", name_of(*primitive)),
+                "check its numbers, and the transforms that place it", primitive->place);
+  }
+}
+
+void SceneReader::read_checked(const std::shared_ptr<const Primitive>& primitive,
+                               const Frame& frame) {
+  files_.budget().spend(bytes_of(*primitive), primitive->place);
+  const Kind kind = kind_of(primitive->type);
+  if (kind == Kind::alias) stand_in_for(primitive->strings.at(0), primitive->place);
+  if (kind != Kind::surface) return modifiers_.define(primitive, frame.placed);
+  if (primitive->type == "instance") return place_octree(*primitive, frame);
+  if (primitive->type == "mesh") return place_mesh(primitive, frame);
+  const ModifierPointer modifier = modifier_of(*primitive, frame);
+  if (primitive->type == "source")
+    return environment_.add(*primitive, frame.placed, modifier.get());
+  surfaces_.add({primitive.get(), frame.placed, frame.is_inverted, modifier.get()});
 }
 
 std::vector<SceneReader::Frame> SceneReader::frames_of(const Words& words, const Frame& frame,
@@ -133,7 +159,8 @@ std::vector<SceneReader::Frame> SceneReader::frames_of(const Words& words, const
   frames.reserve(placing.placements.size());
   for (const Transform& placement : placing.placements)
     frames.push_back({frame.placed * placement, frame.is_inverted != placing.is_inverted,
-                      frame.modifier ? frame.modifier : placing.modifier, frame.folder});
+                      frame.modifier ? frame.modifier : placing.modifier, frame.given,
+                      frame.folder});
   return frames;
 }
 

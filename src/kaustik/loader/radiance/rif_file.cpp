@@ -19,7 +19,7 @@ constexpr auto variables = std::to_array<std::string_view>(
      "pfilt",       "view",     "ZONE",       "QUALITY", "OCTREE",   "PICTURE", "AMBFILE",
      "OPTFILE",     "EXPOSURE", "RESOLUTION", "UP",      "INDIRECT", "DETAIL",  "PENUMBRAS",
      "VARIABILITY", "REPORT",   "RAWFILE",    "ZFILE",   "mkpmap",   "PGMAP",   "PCMAP",
-     "PIMAP",       "PDMAP",    "PVMAP"});
+     "PIMAP",       "PDMAP",    "PVMAP",      "EYESEP",  "rpict",    "rvu",     "rtpict"});
 
 /// The whole name; "" where none or several begin so. Capitals and small letters are alike.
 std::string_view variable_of(std::string_view name) {
@@ -114,6 +114,16 @@ void read_render(std::string_view value, const Place& place, RifFile& rif, Devia
   }
 }
 
+/// What looks like a slip of the pen is an error.
+void leave_out(std::string_view name, const Place& place, Deviations& deviations) {
+  const std::vector<std::string> names(variables.begin(), variables.end());
+  const std::string message = fmt::format("rad knows no variable '{}'", name.substr(0, 40));
+  if (const std::string nearest = nearest_name(std::string(name.substr(0, 40)), names);
+      !nearest.empty())
+    throw Error(ErrorKind::input, message, fmt::format("did you mean '{}'?", nearest), place);
+  deviations.ignored("control file", message, place);
+}
+
 }  // namespace
 
 RifFile read_rif(std::string_view text, const PlaceAt& place_at, Deviations& deviations) {
@@ -133,9 +143,7 @@ RifFile read_rif(std::string_view text, const PlaceAt& place_at, Deviations& dev
     const std::string_view name = trimmed(whole.substr(0, equals));
     const std::string_view value = trimmed(whole.substr(equals + 1));
     const std::string_view variable = variable_of(name);
-    if (variable.empty())
-      throw Error(ErrorKind::input, fmt::format("rad knows no variable '{}'", name.substr(0, 40)),
-                  suggest(name, {variables.begin(), variables.end()}), place);
+    if (variable.empty()) leave_out(name, place, deviations);
     if (variable == "materials")
       add_files(value, place, materials);
     else if (variable == "illum")

@@ -4,6 +4,7 @@
 
 #include "kaustik/base/file.h"
 #include "kaustik/loader/gzip.h"
+#include "kaustik/loader/radiance/compiled_reader.h"
 #include "kaustik/loader/text_places.h"
 
 namespace kaustik::radiance {
@@ -16,6 +17,14 @@ constexpr size_t most_bytes = size_t{1} << 30, most_files = 20'000;
 bool is_regular(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
+}
+
+/// Those of a frozen one, or commands that include the files it was made from.
+std::shared_ptr<const Statements> statements_of_octree(CompiledOctree octree, const Place& place) {
+  for (const std::string& file : octree.files)
+    octree.statements.emplace_back(
+        Command{file.starts_with('!') ? file.substr(1) : fmt::format("xform \"{}\"", file), place});
+  return std::make_shared<const Statements>(std::move(octree.statements));
 }
 
 }  // namespace
@@ -77,13 +86,16 @@ std::shared_ptr<const Statements> SceneFiles::statements_of(const fs::path& path
   auto& parsed = parsed_[identity.string()];
   if (parsed) return parsed;
   const std::string text = text_of(path, place);
+  if (is_compiled(text, "Radiance_octree")) {
+    parsed =
+        statements_of_octree(read_octree(text, place_in(path.string())), place_in(path.string()));
+    return parsed;
+  }
   const bool may_be_quoted = path == trusted_ || begins_as_statements(text);
   if (text.find('\0') != std::string::npos || text.starts_with("#?RADIANCE") ||
       (!may_be_quoted && holds_statements(text)))
     throw Error(ErrorKind::input, fmt::format("'{}' is no scene of Radiance", path.string()),
-                "name a text file of primitives (.rad); frozen octrees (.oct) and meshes (.rtm) "
-                "have to be written again as text",
-                place);
+                "name a text file of primitives (.rad), or an octree (.oct)", place);
   const TextPlaces places(text, path.string(), may_be_quoted);
   parsed = std::make_shared<const Statements>(
       read_statements(text, [&](size_t offset) { return places.at(offset); }));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/vec.h"
@@ -23,6 +24,14 @@ inline void need_reals(const Primitive& primitive, size_t count) {
 
 inline Vec3d vector_at(const Primitive& primitive, size_t first) {
   return {primitive.reals[first], primitive.reals[first + 1], primitive.reals[first + 2]};
+}
+
+/// Twice the area of a polygon along its normal (Newell).
+inline Vec3d area_vector_of(const std::vector<Vec3d>& corners) {
+  Vec3d sum(0, 0, 0);
+  for (size_t i = 1; i + 1 < corners.size(); ++i)
+    sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+  return sum;
 }
 
 /// What is beyond floats, or would be lost in them.

@@ -5,79 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
-#include <span>
 
 #include "kaustik/base/array.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/polygon_cutter.h"
 #include "kaustik/loader/radiance/placement.h"
+#include "kaustik/loader/radiance/smooth_facets.h"
 #include "kaustik/loader/radiance/surface_parts.h"
 #include "kaustik/loader/radiance/texture_coordinates.h"
 
 namespace kaustik::radiance {
 namespace {
 
-/// Twice the area of a polygon along its normal (Newell).
-Vec3d area_vector_of(const std::vector<Vec3d>& corners) {
-  Vec3d sum(0, 0, 0);
-  for (size_t i = 1; i + 1 < corners.size(); ++i)
-    sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
-  return sum;
-}
-
 Vec3d mean_of(const std::vector<Vec3d>& corners) {
   Vec3d sum(0, 0, 0);
   for (const Vec3d& corner : corners) sum += corner;
   return sum * (1.0 / double(corners.size()));
-}
-
-/// Whether a modifier is one of the textures that only make a facet smooth: gensurf's own here, see
-/// FacetWriter, or that of Radiance.
-bool is_smoothing(const Modifier* modifier) {
-  if (!modifier || modifier->type() != "texfunc" || modifier->strings().size() < 4) return false;
-  const std::string& file = modifier->strings()[3];
-  return (file == "corner_normals" && modifier->reals().size() == 9) ||
-         (file.ends_with("surf.cal") && modifier->reals().size() == 13);
-}
-
-Vec3d row_of(const std::vector<double>& reals, size_t first) {
-  return {reals[first], reals[first + 1], reals[first + 2]};
-}
-
-/// By surf.cal: the facet's normal bends by u v a + u b + v c + d, where u and v are the
-/// coordinates behind the axis in its first argument.
-Vec3d bent_normal(const std::vector<double>& reals, const Vec3d& point, const Vec3d& normal) {
-  const int axis = int(std::clamp(reals[0], 0.0, 2.0));
-  const double u = point[(axis + 1) % 3], v = point[(axis + 2) % 3];
-  return normal + row_of(reals, 1) * (u * v) + row_of(reals, 4) * u + row_of(reals, 7) * v +
-         row_of(reals, 10);
-}
-
-/// Of a facet that is smooth; nothing for others.
-std::optional<std::vector<Vec3d>> corner_normals_of(const PlacedSurface& surface) {
-  if (!is_smoothing(surface.modifier)) return std::nullopt;
-  const Modifier& texture = *surface.modifier;
-  const Primitive& polygon = *surface.primitive;
-  std::vector<Vec3d> normals;
-  if (texture.reals().size() == 9) {
-    if (polygon.reals.size() != 9) return std::nullopt;
-    for (size_t i = 0; i < 9; i += 3)
-      normals.push_back(placed_vector(surface.placed, row_of(texture.reals(), i)));
-    return normals;
-  }
-  const auto own = transform_in(std::span(texture.strings()).subspan(4));
-  if (!own) return std::nullopt;
-  const Transform own_from_file = own->inverse();
-  std::vector<Vec3d> corners;
-  for (size_t i = 0; i + 2 < polygon.reals.size(); i += 3)
-    corners.push_back(placed_point(own_from_file, vector_at(polygon, i)));
-  const Vec3d normal = area_vector_of(corners).normalized();
-  const double side = is_mirrored(*own) ? -1 : 1;
-  for (const Vec3d& corner : corners)
-    normals.push_back(
-        placed_vector(surface.placed * *own, bent_normal(texture.reals(), corner, normal * side)));
-  return normals;
 }
 
 /// Takes them.
@@ -115,7 +58,6 @@ std::shared_ptr<const Appearance> SurfaceMaker::look_at(const PlacedSurface& sur
 }
 
 void SurfaceMaker::extend(const Vec3d& point, const Vec3d& normal, const Appearance* appearance) {
-  bounds_.extendBy(Vec3f(point));
   if (appearance && appearance->grid) appearance->grid->extend(point, normal);
 }
 
@@ -144,7 +86,7 @@ void SurfaceMaker::add_polygon(const PlacedSurface& surface) {
   corners.reserve(n);
   for (size_t i = 0; i < n; ++i)
     corners.push_back(placed_point(surface.placed, vector_at(primitive, 3 * i)));
-  auto normals = corner_normals_of(surface);
+  auto normals = corner_normals_of(surface.modifier, primitive, surface.placed);
   if (is_mirrored(surface.placed) != surface.is_inverted) {
     std::reverse(corners.begin(), corners.end());
     if (normals) std::reverse(normals->begin(), normals->end());

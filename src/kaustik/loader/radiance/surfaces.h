@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kaustik/loader/radiance/compiled_reader.h"
 #include "kaustik/loader/radiance/materials.h"
 
 namespace kaustik::radiance {
@@ -26,13 +27,12 @@ class SurfaceMaker {
   SurfaceMaker(MaterialMaker& materials, Deviations& deviations, Object& scene)
       : materials_(materials), deviations_(deviations), scene_(scene) {}
 
-  /// Any but sources, instances and meshes. Throws Error(input) for arguments that are missing.
+  /// Any but sources, octrees and meshes. Throws Error(input) for arguments that are missing.
   void add(const PlacedSurface& surface);
+  /// The triangles of a mesh that have that material of its own.
+  void add_mesh_part(const PlacedSurface& surface, const CompiledMesh& mesh, int32_t material);
   /// Describes the meshes.
   void finish();
-
-  /// The box around all.
-  const Bounds3f& bounds() const { return bounds_; }
 
  private:
   /// Triangles with one appearance.
@@ -63,12 +63,12 @@ class SurfaceMaker {
   void add_mesh(Mesh& mesh);
   void add_beam(const Appearance::Beam& beam, const Vec3d& middle, double area, const Vec3d& normal,
                 const Place& place);
-  void extend(const Vec3d& point, const Vec3d& normal, const Appearance* appearance);
+  /// Tells the pattern of an appearance, if it has one, that a surface is there.
+  static void extend(const Vec3d& point, const Vec3d& normal, const Appearance* appearance);
 
   MaterialMaker& materials_;
   Deviations& deviations_;
   Object& scene_;
-  Bounds3f bounds_;
   std::map<std::tuple<const Appearance*, bool, bool>, Mesh> meshes_;
   std::vector<std::tuple<const Appearance*, bool, bool>> order_;  ///< of meshes, for the same scene
 };

@@ -28,20 +28,46 @@ Coordinates by_tangent(const Vec3d& tangent, const std::vector<Vec3d>& corners,
 }
 
 /// Whether in the middle of each side the coordinates are those between its ends.
-bool are_straight(const PicturePattern& picture, const std::vector<Vec3d>& corners,
-                  const Vec3d& normal, const Coordinates& at_corners) {
+bool are_straight(const PicturePattern& picture, const std::vector<PatternPoint>& corners,
+                  const Coordinates& at_corners) {
   double largest = 1e-6;
   for (const auto& [u, v] : at_corners)
     largest = std::max(
         {largest, std::fabs(u - at_corners[0].first), std::fabs(v - at_corners[0].second)});
   for (size_t i = 0; i < corners.size(); ++i) {
     const size_t j = (i + 1) % corners.size();
-    const auto [u, v] = picture.place_of({(corners[i] + corners[j]) * 0.5, normal});
+    const auto [u, v] =
+        picture.place_of({(corners[i].position + corners[j].position) * 0.5, corners[i].normal});
     const double du = u - (at_corners[i].first + at_corners[j].first) / 2;
     const double dv = v - (at_corners[i].second + at_corners[j].second) / 2;
     if (std::max(std::fabs(du), std::fabs(dv)) > 1e-3 * largest) return false;
   }
   return true;
+}
+
+Coordinates coordinates_of(const PicturePattern& picture, const std::vector<PatternPoint>& points,
+                           bool is_flat, const Primitive& surface, Deviations& deviations) {
+  try {
+    Coordinates found;
+    found.reserve(points.size());
+    for (const PatternPoint& point : points) found.push_back(picture.place_of(point));
+    if (is_flat && !are_straight(picture, points, found))
+      deviations.approximated(name_of(surface),
+                              "its picture lies evenly between the corners, where its function "
+                              "bends it",
+                              surface.place);
+    const auto [width, height] = picture_size(picture.file());
+    const double shorter = std::min(width, height);
+    for (auto& [u, v] : found) {
+      u *= shorter / width;
+      v = 1 - v * shorter / height;
+    }
+    return found;
+  } catch (const CalError&) {
+    deviations.approximated(name_of(surface),
+                            "its picture has no place on it, and shows one colour", surface.place);
+    return Coordinates(points.size(), {0.5, 0.5});
+  }
 }
 
 }  // namespace
@@ -51,27 +77,15 @@ Coordinates texture_coordinates(const Appearance& appearance, const std::vector<
                                 Deviations& deviations) {
   if (!appearance.picture)
     return appearance.tangent ? by_tangent(*appearance.tangent, corners, normal) : Coordinates();
-  const PicturePattern& picture = *appearance.picture;
-  try {
-    Coordinates found;
-    for (const Vec3d& corner : corners) found.push_back(picture.place_of({corner, normal}));
-    if (!are_straight(picture, corners, normal, found))
-      deviations.approximated(name_of(polygon),
-                              "its picture lies evenly between the corners, where its function "
-                              "bends it",
-                              polygon.place);
-    const auto [width, height] = picture_size(picture.file());
-    const double shorter = std::min(width, height);
-    for (auto& [u, v] : found) {
-      u *= shorter / width;
-      v = 1 - v * shorter / height;
-    }
-    return found;
-  } catch (const CalError&) {
-    deviations.approximated(name_of(polygon),
-                            "its picture has no place on it, and shows one colour", polygon.place);
-    return Coordinates(corners.size(), {0.5, 0.5});
-  }
+  std::vector<PatternPoint> points;
+  for (const Vec3d& corner : corners) points.push_back({corner, normal});
+  return coordinates_of(*appearance.picture, points, true, polygon, deviations);
+}
+
+Coordinates picture_coordinates(const PicturePattern& picture,
+                                const std::vector<PatternPoint>& points, const Primitive& surface,
+                                Deviations& deviations) {
+  return coordinates_of(picture, points, false, surface, deviations);
 }
 
 std::pair<double, double> picture_size(const std::string& path) {

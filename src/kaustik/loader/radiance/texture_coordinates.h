@@ -16,6 +16,12 @@ std::vector<std::pair<double, double>> texture_coordinates(const Appearance& app
                                                            const Primitive& polygon,
                                                            Deviations& deviations);
 
+/// Of points on a mesh, where the surface bends: those of a picture alone.
+std::vector<std::pair<double, double>> picture_coordinates(const PicturePattern& picture,
+                                                           const std::vector<PatternPoint>& points,
+                                                           const Primitive& surface,
+                                                           Deviations& deviations);
+
 /// Width and height of a picture of Radiance (.hdr, .pic) in pixels by its header; of others, and
 /// where there is none, 1 and 1.
 std::pair<double, double> picture_size(const std::string& path);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "kaustik/loader/radiance/cal_program.h"
+#include "kaustik/loader/radiance/surface_parts.h"
 
 namespace kaustik::radiance {
 namespace {
@@ -19,26 +20,31 @@ bool are_alike(const Rgb& a, const Rgb& b) {
   return near(a.r, b.r) && near(a.g, b.g) && near(a.b, b.b);
 }
 
-/// Arrival from a direction over the front of the surface, as often as its cosine.
-Vec3d some_direction(const Vec3d& normal, std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(0, 1);
-  const double r = std::sqrt(unit(random)), phi = 2 * std::numbers::pi * unit(random);
-  const Vec3d other = std::fabs(normal.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-  const Vec3d u = normal.cross(other).normalized(), v = normal.cross(u);
-  const Vec3d outward = u * (r * std::cos(phi)) + v * (r * std::sin(phi)) +
-                        normal * std::sqrt(std::max(0.0, 1 - r * r));
-  return -outward;
+/// Of a ray that arrives over the front of the surface: even numbers give directions as often as
+/// their cosine.
+Vec3d direction_by(const Vec3d& normal, double share, double turn) {
+  const double r = std::sqrt(share), phi = 2 * std::numbers::pi * turn;
+  const auto [u, v] = across(normal);
+  return -(u * (r * std::cos(phi)) + v * (r * std::sin(phi)) +
+           normal * std::sqrt(std::max(0.0, 1 - r * r)));
 }
 
-/// Over points of the surface and directions; what has no value there counts for nothing.
+Vec3d some_direction(const Vec3d& normal, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double share = unit(random);
+  return direction_by(normal, share, unit(random));
+}
+
+/// Over points of the surface and directions, evenly by the golden ratio; what has no value there
+/// counts for nothing.
 std::optional<Rgb> mean_of(const Pattern& pattern, const std::vector<PatternPoint>& samples) {
-  constexpr int count = 256;
-  std::mt19937 random(1);
+  constexpr int count = 1024;
   Rgb sum;
   int good = 0;
   for (int i = 0; i < count; ++i) {
     PatternPoint point = samples[size_t(i) % samples.size()];
-    point.direction = some_direction(point.normal, random);
+    const double turn = i * std::numbers::phi;
+    point.direction = direction_by(point.normal, (i + 0.5) / count, turn - std::floor(turn));
     try {
       const Rgb value = pattern.at(point);
       sum = {sum.r + value.r, sum.g + value.g, sum.b + value.b};

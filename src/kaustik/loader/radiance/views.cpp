@@ -229,19 +229,4 @@ ObjectPointer camera_of(const View& view, const PictureOptions& options, Deviati
   return sensor;
 }
 
-View view_of_all(const Bounds3f& bounds, const Place& place) {
-  View view;
-  view.place = place;
-  Vec3d centre(0, 0, 0);
-  double radius = 1;
-  if (!bounds.isEmpty()) {
-    centre = Vec3d((bounds.min + bounds.max) * 0.5f);
-    radius = std::max(0.5 * Vec3d(bounds.max - bounds.min).length(), 1e-6);
-  }
-  const Vec3d toward = Vec3d(1, -1.6, 0.8).normalized();
-  view.point = centre + toward * (1.05 * radius / std::sin(view.vertical / 2 * degree));
-  view.direction = -toward;
-  return view;
-}
-
 }  // namespace kaustik::radiance

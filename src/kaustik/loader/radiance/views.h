@@ -43,7 +43,4 @@ std::optional<std::string> view_line_of(std::string_view text);
 /// The camera, with its film.
 ObjectPointer camera_of(const View& view, const PictureOptions& options, Deviations& deviations);
 
-/// For scenes without a view: all of the box, from above its south-eastern corner.
-View view_of_all(const Bounds3f& bounds, const Place& place);
-
 }  // namespace kaustik::radiance
