@@ -38,12 +38,9 @@ std::shared_ptr<Object> film_of(Given& given, Reading& reading) {
   give(*film, "width", given.count({"width"}, 1280, 1));
   give(*film, "height", given.count({"height"}, 720, 1));
   const Object* filter = nullptr;
-  for (const Child& child : element.children) {
-    if (child.object->family == "rfilter")
-      filter = child.object.get();
-    else
-      reading.ignored(*child.object, "a camera has no such part here");
-  }
+  for (const Child& child : element.children)
+    if (!filter && child.object->family == "rfilter") filter = child.object.get();
+  reading.ignore_parts(element, {filter});
   put(*film, "", filter_of(filter, element.place, reading));
   return film;
 }

@@ -90,6 +90,7 @@ std::shared_ptr<Object> same_method(Given& given, Reading& reading) {
 
 std::string add_integrator(Object& scene, const Object& element, Reading& reading) {
   Given given(element, reading.deviations);
+  reading.ignore_parts(element);
   if (element.type == "ao" || element.type == "av") return add_visibility(scene, given, reading);
   if (element.type == "simple") return add_simple(scene, given), std::string();
   if (auto method = same_method(given, reading)) {

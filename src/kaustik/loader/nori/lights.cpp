@@ -98,6 +98,7 @@ bool is_surroundings(const Object& element) {
 
 std::shared_ptr<Object> lamp_of(const Object& element, Reading& reading) {
   Given given(element, reading.deviations);
+  if (!is_surroundings(element)) reading.ignore_parts(element);
   const std::string& type = element.type;
   if (type.starts_with("point")) {
     const Vec3d position = given.point({"position", "origin"}).value_or(Vec3d(0, 0, 0));
@@ -123,6 +124,7 @@ std::shared_ptr<Object> lamp_of(const Object& element, Reading& reading) {
 
 std::shared_ptr<Object> area_lamp_of(const Object& element, Reading& reading) {
   Given given(element, reading.deviations);
+  reading.ignore_parts(element);
   if (element.type != "area") {
     reading.ignored(element, "there is no such light of a mesh here");
     return nullptr;

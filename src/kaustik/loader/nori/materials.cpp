@@ -19,6 +19,13 @@ class MaterialReader {
       : element_(element), reading_(reading), given_(element, reading.deviations) {}
 
   std::shared_ptr<Object> read() {
+    auto bsdf = read_type();
+    reading_.ignore_parts(element_, taken_);
+    return bsdf;
+  }
+
+ private:
+  std::shared_ptr<Object> read_type() {
     const std::string& type = element_.type;
     if (type == "diffuse") return coloured("diffuse", "reflectance");
     if (type == "mirror") return started("conductor");
@@ -33,7 +40,6 @@ class MaterialReader {
     return stand_in();
   }
 
- private:
   std::shared_ptr<Object> started(const char* type) const {
     return make_object("bsdf", type, element_.place);
   }
@@ -44,6 +50,7 @@ class MaterialReader {
       if (child.object->family != "texture") continue;
       if (!child.name.empty() && std::ranges::find(theirs, plain_name(child.name)) == theirs.end())
         continue;
+      taken_.insert(child.object.get());
       auto texture = texture_of(*child.object, reading_);
       if (!texture) continue;
       put(bsdf, name, std::move(texture));
@@ -148,6 +155,7 @@ class MaterialReader {
     for (const Child& child : element_.children)
       if (child.object->family == "bsdf") {
         reading_.approximated(element_, "there is no such bsdf here: the one in it stands for it");
+        taken_.insert(child.object.get());
         return bsdf_of(*child.object, reading_);
       }
     reading_.approximated(element_, "there is no such bsdf here: it is matt");
@@ -157,6 +165,7 @@ class MaterialReader {
   const Object& element_;
   Reading& reading_;
   Given given_;
+  std::set<const Object*> taken_;  ///< parts of the element
 };
 
 }  // namespace

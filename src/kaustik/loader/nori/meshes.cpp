@@ -51,7 +51,7 @@ void add_part(Object& shape, const Object& part, Reading& reading, bool& has_bsd
     reading.ignored(part, "media of Nori's forks are not rendered");
     has_medium = true;
   } else {
-    reading.ignored(part, "a mesh has no such part here");
+    reading.ignored(part, "there is no such part of a mesh here");
   }
 }
 

@@ -21,6 +21,12 @@ std::string Reading::path_of(const std::string& name, const Place& place) {
   return like->string();
 }
 
+void Reading::ignore_parts(const Object& element, const std::set<const Object*>& taken) {
+  for (const Child& child : element.children)
+    if (!taken.contains(child.object.get()))
+      ignored(*child.object, fmt::format("there is no such part of a {} here", element.family));
+}
+
 bool Reading::has_normals(const std::string& path) {
   const auto known = has_normals_.find(path);
   if (known != has_normals_.end()) return known->second;

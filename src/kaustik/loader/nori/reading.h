@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "kaustik/loader/deviations.h"
@@ -26,6 +27,9 @@ class Reading {
   void ignored(const Object& element, std::string what) {
     deviations.ignored(label_of(element), std::move(what), element.place);
   }
+
+  /// Tells of the parts of an element, but for those in `taken`.
+  void ignore_parts(const Object& element, const std::set<const Object*>& taken = {});
 
   Deviations deviations;
   /// Tests take the picture's mean: no filter may reach beyond its edges.

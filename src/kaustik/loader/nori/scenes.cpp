@@ -50,7 +50,7 @@ ReadScene scene_of(const Object& element, Reading& reading) {
       else
         *single = &part;
     } else if (!add_world_part(*read.scene, part, reading)) {
-      reading.ignored(part, "a scene has no such part here");
+      reading.ignored(part, "there is no such part of a scene here");
     }
   }
   if (!parts.camera)

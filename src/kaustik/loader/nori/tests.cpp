@@ -122,9 +122,11 @@ std::vector<NoriTest> densities_of(Given& given, Reading& reading) {
 
 std::vector<NoriTest> tests_of(const Object& element, Reading& reading) {
   Given given(element, reading.deviations);
+  std::set<const Object*> taken;
   for (const Child& child : element.children)
-    if (child.object->family != "bsdf" && child.object->family != "scene")
-      reading.ignored(*child.object, "a test has no such part here");
+    if (child.object->family == "bsdf" || child.object->family == "scene")
+      taken.insert(child.object.get());
+  reading.ignore_parts(element, taken);
   if (element.type == "ttest") return means_of(given, reading);
   if (element.type == "chi2test") return densities_of(given, reading);
   throw Error(ErrorKind::input, "there is no such test here",

@@ -27,6 +27,7 @@ std::shared_ptr<Object> checkerboard_of(Given& given) {
 
 std::shared_ptr<Object> texture_of(const Object& element, Reading& reading) {
   Given given(element, reading.deviations);
+  reading.ignore_parts(element);
   if (element.type.starts_with("checkerboard")) return checkerboard_of(given);
   if (element.type.starts_with("constant")) {
     const auto colour = given.colour({"value", "color", "albedo"});
