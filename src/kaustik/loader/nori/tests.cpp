@@ -14,9 +14,9 @@ constexpr size_t most_claims = 10'000;
 
 std::vector<double> numbers_in(Given& given, std::string_view name) {
   std::vector<double> numbers;
-  const auto text = given.text({name});
+  const std::string text = given.text({name}).value_or("");
   try {
-    for (const std::string_view part : mitsuba::split_list(text.value_or("")))
+    for (const std::string_view part : mitsuba::split_list(text))
       numbers.push_back(mitsuba::parse_float(part));
   } catch (const mitsuba::BadValue& bad) {
     throw Error(ErrorKind::input, bad.what(), bad.remedy, given.place_of({name}));
