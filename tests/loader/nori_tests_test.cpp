@@ -17,7 +17,7 @@ const std::string scene_of_claims = "<scene><integrator type=\"path\"/>" + nori_
 TEST(NoriTests, ScenesWithReferences) {
   const auto claims = read_claims(
       "<test type=\"ttest\"><string name=\"references\" "
-      "value=\"1.5,\n\t\t2.000000000000000000000\"/>"
+      "value=\"1.5,   2.000000000000000000000\"/>"
       "<float name=\"significanceLevel\" value=\"0.05\"/><integer name=\"sampleCount\" "
       "value=\"500\"/>\n" +
       scene_of_claims + "\n<scene><integrator type=\"av\"/>" + nori_camera + "</scene></test>");
