@@ -138,6 +138,7 @@ BEGIN {
   allow_folder("photon/coverage", "")
   # Plans hold what lessons taught, and lessons change plans: the two know each other.
   allow_folder("loader/radiance", "")
+  allow_folder("loader/nori", "")
   allow_folder("vcm/merging", "")
   allow_folder("vcm/gathering", "")
   allow_folder("vcm/light_path", "")

@@ -6,6 +6,7 @@ namespace kaustik::app {
 
 // What the program ends with.
 inline constexpr int exit_system = 1;        ///< the machine failed
+inline constexpr int exit_test_failed = 1;   ///< a test of `kaustik test`
 inline constexpr int exit_input = 2;         ///< something is wrong with what the user gave
 inline constexpr int exit_ended_early = 75;  ///< a signal came before all was done
 
@@ -20,5 +21,7 @@ std::string exit_code_text();
 
 /// Thrown when all that can be written is written, but a signal came before all was done.
 struct EndedEarly {};
+/// Thrown when all tests have run and are told, and some of them failed.
+struct TestsFailed {};
 
 }  // namespace kaustik::app

@@ -1,11 +1,9 @@
 // Scenes of pbrt beside the same ones in Mitsuba's XML: the descriptions agree.
 
-#include <algorithm>
-#include <cmath>
-
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/scene_format.h"
 #include "tests/loader/pbrt_support.h"
+#include "tests/loader/twin_support.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -14,65 +12,12 @@ std::string twin(const std::string& name) {
   return std::string(KAUSTIK_SOURCE_DIR) + "/tests/loader/twins/pbrt/" + name;
 }
 
-/// What a property is where none is given; of others there is no usual one.
-Value usual(const std::string& name) {
-  if (name == "to_world") return Transform();
-  if (name == "reflectance") return 0.5;
-  if (name == "radius") return 1.0;
-  return std::string("not given");
-}
-
-Value value_of(const Object& object, const std::string& name) {
-  const Property* property = find_property(object, name);
-  return property ? property->value : usual(name);
-}
-
-bool agrees(const std::string& name, const Value& a, const Value& b) {
-  constexpr double tolerance = 1e-6;
-  const auto near = [](double x, double y) { return std::fabs(x - y) < tolerance; };
-  if (const auto* s = std::get_if<Transform>(&a), *t = std::get_if<Transform>(&b); s && t) {
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        if (!near(s->at(i, j), t->at(i, j))) return false;
-    return true;
-  }
-  if (const auto* s = std::get_if<Vec3d>(&a), *t = std::get_if<Vec3d>(&b); s && t)
-    return name == "direction" ? (s->normalized() - t->normalized()).length() < tolerance
-                               : (*s - *t).length() < tolerance;
-  const auto x = as_colour(a), y = as_colour(b);
-  if (x && y) return near(x->r, y->r) && near(x->g, y->g) && near(x->b, y->b);
-  return a == b;
-}
-
-/// How many differences there are; each is a failure where they are not expected.
-int differences(const Object& a, const Object& b, bool is_expected, const std::string& path = "") {
-  int count = 0;
-  const auto check = [&](bool is_same, const std::string& what) {
-    if (is_same) return;
-    ++count;
-    if (!is_expected) ADD_FAILURE() << path << a.family << " '" << a.type << "': " << what;
-  };
-  check(a.family == b.family && a.type == b.type, "the other is a " + b.family + " " + b.type);
-  std::set<std::string> names;
-  for (const Object* object : {&a, &b})
-    for (const Property& property : object->properties) names.insert(property.name);
-  for (const std::string& name : names)
-    check(agrees(name, value_of(a, name), value_of(b, name)), name);
-  check(a.children.size() == b.children.size(), "children");
-  for (size_t i = 0; i < std::min(a.children.size(), b.children.size()); ++i) {
-    check(a.children[i].name == b.children[i].name, "names of children");
-    count +=
-        differences(*a.children[i].object, *b.children[i].object, is_expected, path + a.type + "/");
-  }
-  return count;
-}
-
 TEST(PbrtTwins, Bodies) {
   const Description read = load_scene(twin("bodies.pbrt"));
   ASSERT_EQ(read.deviations.size(), 1u);
   EXPECT_TRUE(is_approximated(read, "film", "exposed 1.5 times"));
   const Description wanted = load_scene(twin("bodies.xml"));
-  EXPECT_EQ(differences(*read.scene, *wanted.scene, false), 0);
+  EXPECT_EQ(twins::differences(*read.scene, *wanted.scene, false), 0);
 }
 
 TEST(PbrtTwins, DifferencesAreFound) {
@@ -83,7 +28,7 @@ TEST(PbrtTwins, DifferencesAreFound) {
     Object& sphere = *objects_of(other, "shape")[2];
     remove_property(sphere, name);
     sphere.properties.push_back({name, value, {}});
-    EXPECT_EQ(differences(*other.scene, *wanted.scene, true), 1) << name;
+    EXPECT_EQ(twins::differences(*other.scene, *wanted.scene, true), 1) << name;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "kaustik/loader/gltf/gltf_scene.h"
 #include "kaustik/loader/gzip.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/nori_scene.h"
 #include "kaustik/loader/obj_scene.h"
 #include "kaustik/loader/pbrt_scene.h"
 #include "kaustik/loader/radiance/radiance_scene.h"
@@ -79,7 +80,8 @@ const std::vector<SceneFormat>& scene_formats() {
       {"pbrt", {".pbrt"}, is_pbrt, load_pbrt, parse_pbrt},
       {"glTF", {".gltf", ".glb"}, is_gltf, load_gltf, parse_gltf},
       {"OBJ", {".obj"}, is_obj, load_obj_scene, parse_obj_scene},
-      {"Radiance", {".rad", ".rif", ".vf", ".oct"}, is_radiance, load_radiance, parse_radiance}};
+      {"Radiance", {".rad", ".rif", ".vf", ".oct"}, is_radiance, load_radiance, parse_radiance},
+      {"Nori XML", {".xml"}, is_nori, load_nori, parse_nori}};
   return formats;
 }
 
