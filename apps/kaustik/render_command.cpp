@@ -177,7 +177,9 @@ void add_render(CLI::App& program) {
       "A second signal ends the program at once. In the first pass it writes a picture of fewer "
       "samples, or nothing if a pixel has no sample yet. SIGUSR1 writes the picture as it is, and "
       "the render goes on.\n"
-      "Each line of JSON has an \"event\": start, progress, written, message or end. With "
+      "A meter's value goes to standard error, in lx or cd/m², with its 95 % interval.\n"
+      "Each line of JSON has an \"event\": start, progress, measured, written, message or end. "
+      "With "
       "--progress json the lines go to standard error, with all messages. With --progress-file "
       "they go elsewhere, and messages stay text.\n"
       "Environment variables photonMap.… set integrator photonmap as in Schregle's thesis: kaustik "
@@ -210,7 +212,9 @@ void add_render(CLI::App& program) {
       ->check(whole_number(1, 1 << 30));
   command
       ->add_option("--spp", options->spp,
-                   "Samples per pixel over all passes (more samples make more passes)")
+                   "Samples per pixel over all passes; more of them make more passes [without "
+                   "--passes, --time and --error the sampler's sample_count in the scene, else 16 "
+                   "passes of the method's usual number]")
       ->check(whole_number(1, 1 << 30));
   takes(command->add_option("--error", options->error,
                             "Stop when the picture's relative error is at most this, such as 2% "

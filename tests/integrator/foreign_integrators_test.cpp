@@ -117,7 +117,7 @@ TEST(ForeignIntegrators, KeepWhatHasAMeaning) {
   ASSERT_EQ(object.properties.size(), 1u);
   EXPECT_EQ(object.properties[0].value, Value(int64_t{7}));
   EXPECT_EQ(notes, (std::vector<std::string>{
-                       "'luminance_samples' of integrator 'pssmlt' has no effect here",
+                       "without effect here: 'luminance_samples' of integrator 'pssmlt'",
                        "there is no integrator 'pssmlt' here: auto renders the picture"}));
   // What is said in our words wins.
   const Object both =

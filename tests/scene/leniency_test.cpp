@@ -181,7 +181,8 @@ TEST(Leniency, WhatChangesNoLightIsTaken) {
   Description description = description_of(fog("<string name=\"strategy\" value=\"balance\"/>"));
   description.is_strict = true;
   EXPECT_EQ(build_scene(description)->warnings(),
-            std::vector<std::string>{"without effect here: 'strategy' of medium 'homogeneous'"});
+            std::vector<std::string>{
+                "without effect here: 'strategy' of medium 'homogeneous' (test.xml:3:48)"});
 }
 
 TEST(Leniency, MixturesOfPhaseFunctions) {

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "kaustik/base/error.h"
-#include "kaustik/base/white_efficacy.h"
+#include "kaustik/base/photometric_units.h"
 #include "kaustik/loader/obj_scan.h"
 #include "kaustik/loader/object_maker.h"
 #include "kaustik/loader/object_parts.h"
@@ -205,7 +205,7 @@ bool is_lit(const Description& description) {
 void Framing::add_studio_light() {
   Object& scene = *description_.scene;
   // Of the white: that of the even light, and the irradiance from the lamp over π.
-  constexpr double white = studio_luminance / double(white_efficacy);
+  constexpr double white = studio_luminance / lumens_per_watt_white;
   constexpr double even = 0.3, distance = 4, half_side = 1.5;
   const double form_factor = 4 * half_side * half_side / (distance * distance);
   const Vec3d to_camera = direction_to_camera();

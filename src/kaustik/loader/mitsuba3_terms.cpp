@@ -149,15 +149,17 @@ class Translator {
   }
 
   /// Where Mitsuba 3 lacks the type; what the other type does not know is left out later.
-  void change_type(Object& object, const char* type) {
+  void change_type(Object& object, const char* type, const char* consequence = "") {
     if (mitsuba3_has_type(object.family, object.type)) return;
-    tell(object, fmt::format("{} '{}' becomes '{}'", object.family, object.type, type));
+    tell(object,
+         fmt::format("{} '{}' becomes '{}'{}", object.family, object.type, type, consequence));
     object.type = type;
   }
 
   void change_integrator(Object& object) {
     if (mitsuba3_has_type(object.family, object.type)) return;
-    change_type(object, has_media_ ? "volpath" : "path");
+    change_type(object, has_media_ ? "volpath" : "path",
+                ", which misses caustics of point, spot and directional lamps");
     object.children.clear();
     static const std::set<std::string> kept = {"max_depth", "rr_depth", "hide_emitters"};
     std::erase_if(object.properties, [](const Property& p) { return !kept.contains(p.name); });
@@ -187,8 +189,8 @@ class Translator {
       const bool stays = row && (!row->no_effect || is_known_to_mitsuba3(property.name)) &&
                          !may_be_left_out(object.family, property.name);
       if (!stays)
-        tell(object,
-             fmt::format("'{}' of {} '{}' is left out", property.name, object.family, object.type));
+        tell(object, fmt::format("'{}' of {} '{}' is left out", property.spelling(), object.family,
+                                 object.type));
       return !stays;
     });
   }

@@ -95,6 +95,7 @@ const LackingInMitsuba3* lacking_in_mitsuba3(const std::string& family, const st
 
 bool is_known_to_mitsuba3(const std::string& parameter) {
   static const std::set<std::string> names = {"accel",
+                                              "aovs",
                                               "complex_sun",
                                               "component_format",
                                               "compensate",

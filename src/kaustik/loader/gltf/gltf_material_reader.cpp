@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kaustik/base/white_efficacy.h"
+#include "kaustik/base/photometric_units.h"
 #include "kaustik/loader/object_maker.h"
 #include "kaustik/loader/object_parts.h"
 
@@ -260,7 +260,7 @@ std::shared_ptr<Object> MaterialReader::emitter() {
   double nits = 1;
   if (const JsonValue* strength = extension("KHR_materials_emissive_strength"))
     nits = std::max(0.0, file_.number(*strength, "emissiveStrength", 1));
-  const double watts = nits / double(white_efficacy);
+  const double watts = nits / lumens_per_watt_white;
   Textured radiance;
   radiance.factor = {std::max(0.0, factor[0]) * watts, std::max(0.0, factor[1]) * watts,
                      std::max(0.0, factor[2]) * watts};

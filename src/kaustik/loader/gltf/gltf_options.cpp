@@ -1,6 +1,6 @@
 #include "kaustik/loader/gltf/gltf_options.h"
 
-#include "kaustik/base/white_efficacy.h"
+#include "kaustik/base/photometric_units.h"
 #include "kaustik/loader/reader_definitions.h"
 
 namespace kaustik::gltf {
@@ -11,7 +11,8 @@ Options options_of(const LoadOptions& options) {
                                                 {"gltf.variant", {}},
                                                 {"gltf.time", {}},
                                                 {"gltf.animation", {}}});
-  Options result{.lamp_efficacy = definitions.number("gltf.lamp_efficacy", white_efficacy, 1e-3)};
+  Options result{.lamp_efficacy =
+                     definitions.number("gltf.lamp_efficacy", lumens_per_watt_white, 1e-3)};
   if (const std::string* glass = definitions.find("gltf.glass"))
     result.glass = *glass == "solid"  ? Glass::solid
                    : *glass == "thin" ? Glass::thin

@@ -14,9 +14,9 @@ bool is_gltf(std::string_view head);
 
 /// Reads a file, packed by gzip or not: the scene that it shows by itself, as it stands in the
 /// file. Meshes are buffers that share the file's memory where they lie as needed. Lamps in candela
-/// and lux, and emission in cd/m², become watts by `white_efficacy`. Without a camera or light it
-/// gets some. Definitions: see gltf::Options. Throws Error(input) for what is no such file, and for
-/// extensions that it requires and that cannot be read.
+/// and lux, and emission in cd/m², become watts by lumens_per_watt_white. Without a camera or light
+/// it gets some. Definitions: see gltf::Options. Throws Error(input) for what is no such file, and
+/// for extensions that it requires and that cannot be read.
 Description load_gltf(const std::string& path, const LoadOptions& options = {});
 
 /// The same from the file's bytes: `name_for_messages` takes the place of its name in messages and

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kaustik/base/photometric_units.h"
 #include "kaustik/loader/radiance/angles.h"
 #include "kaustik/loader/radiance/generators.h"
 #include "kaustik/loader/radiance/primitive_writer.h"
@@ -22,8 +23,6 @@ constexpr const char* daylight_usage =
     "gendaylit month day hour -W direct_normal diffuse_horizontal (W/m²), or -G, -L, -P for "
     "others, [-O 0|1|2] [-g reflectance] [-s] [-a latitude] [-o longitude] [-m meridian]";
 
-/// Of white light in Radiance, lm/W.
-constexpr double white_efficacy = 179;
 /// W/m² and klux outside of the air.
 constexpr double solar_constant = 1367, solar_klux = 127.5;
 constexpr double sun_half_angle = 0.2665 * degree;
@@ -242,10 +241,10 @@ std::string generate_perez_sky(const Words& words, const GeneratorContext& conte
   if (!(to_sun.z > 0)) arguments.refuse("the sun of 'gendaylit' stands below the horizon");
   const PerezDay day(place);
   const MeasuredLight light = light_of(options, day, to_sun.z, arguments);
-  const double diffuse = options.output == 0   ? light.diffuse_lux / white_efficacy
+  const double diffuse = options.output == 0   ? light.diffuse_lux / lumens_per_watt_white
                          : options.output == 1 ? light.diffuse
                                                : light.diffuse_lux;
-  const double direct = options.output == 0   ? light.direct_lux / white_efficacy
+  const double direct = options.output == 0   ? light.direct_lux / lumens_per_watt_white
                         : options.output == 1 ? light.direct
                                               : light.direct_lux;
   const auto c = day.coefficients(light.clearness, light.brightness);
