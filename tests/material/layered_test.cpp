@@ -159,7 +159,7 @@ TEST(mask, cuts_by_opacity) {
   for (const float u : {0.25f, 0.75f}) {
     const bool is_bright = ramp->scalar(at(u).texture()) > 0.3f;
     EXPECT_EQ(holes(0.3)->albedo(at(u), {0, 0, 1}, Lobes::diffuse)[0], is_bright ? 1 : 0);
-    EXPECT_EQ(holes(0.3)->albedo(at(u), {0, 0, 1}, Lobes::delta)[0], is_bright ? 0 : 1);
+    EXPECT_EQ(holes(0.3)->straight(at(u), {0, 0, 1})[0], is_bright ? 0 : 1);
     EXPECT_EQ(holes(0.1)->albedo(at(u), {0, 0, 1}, Lobes::diffuse)[0], 1);
   }
 }
@@ -346,7 +346,7 @@ TEST(openpbr, a_sheet_of_glass_is_a_pane) {
 TEST(openpbr, its_opacity_makes_holes) {
   const auto half = open_pbr({property("geometry_opacity", 0.25)});
   EXPECT_TRUE(half->traits().transmits);
-  EXPECT_NEAR(half->albedo(radiance(), tilted(20), Lobes::delta)[0], 0.75, 1e-6);
+  EXPECT_NEAR(half->straight(radiance(), tilted(20))[0], 0.75, 1e-6);
 }
 
 TEST(cloth_fuzz, never_reflects_more_than_arrives_and_most_at_grazing_angles) {
