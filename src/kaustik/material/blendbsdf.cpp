@@ -15,6 +15,8 @@ class BlendBsdf final : public Bsdf {
             std::shared_ptr<const Texture> weight)
       : Bsdf({.lobes = first->traits().lobes | second->traits().lobes,
               .transmits = first->traits().transmits || second->traits().transmits,
+              .passes_straight =
+                  first->traits().passes_straight || second->traits().passes_straight,
               .is_lambertian = first->traits().is_lambertian && second->traits().is_lambertian,
               .needs =
                   first->traits().needs | second->traits().needs | texture_needs({weight.get()}),
@@ -47,6 +49,11 @@ class BlendBsdf final : public Bsdf {
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     const float w = weight(context);
     return first_->albedo(context, wo, lobes) * (1 - w) + second_->albedo(context, wo, lobes) * w;
+  }
+
+  Spectrum straight(const BsdfContext& context, const Vec3f& wo) const override {
+    const float w = weight(context);
+    return first_->straight(context, wo) * (1 - w) + second_->straight(context, wo) * w;
   }
 
  private:

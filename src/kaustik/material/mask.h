@@ -6,7 +6,7 @@
 namespace kaustik {
 
 /// A surface with holes: light meets the nested bsdf by the chance `opacity` and goes straight on
-/// otherwise, a delta event. With a cutoff it is there where the opacity is at least that.
+/// otherwise. With a cutoff it is there where the opacity is at least that.
 std::shared_ptr<const Bsdf> make_mask(std::shared_ptr<const Bsdf> nested,
                                       std::shared_ptr<const Texture> opacity,
                                       std::optional<float> cutoff = {});
