@@ -303,10 +303,10 @@ def write_obj(path, parts, library=None):
 def make_obj(folder):
     write_obj(folder / "goblets.obj", [
         ("table", "table", rectangle(0.42, 0.36), (0, 0, 0.03)),
-        ("clear", "glass", turned(GOBLET, 48), (-0.05, 0.0003, 0.03)),
-        ("blue", "blue_glass", turned(GOBLET, 48), (0.045, 0.0003, -0.03)),
-        ("bowl", "silver", turned(BOWL, 48), (0.075, 0.0003, 0.085)),
-        ("ball", "red_paint", ball(0.02, 0.02, 40, 20), (-0.11, 0.0003, 0.1)),
+        ("clear", "glass", turned(GOBLET, 32), (-0.05, 0.0003, 0.03)),
+        ("blue", "blue_glass", turned(GOBLET, 32), (0.045, 0.0003, -0.03)),
+        ("bowl", "silver", turned(BOWL, 32), (0.075, 0.0003, 0.085)),
+        ("ball", "red_paint", ball(0.02, 0.02, 32, 16), (-0.11, 0.0003, 0.1)),
     ], "goblets.mtl")
 
 
@@ -333,7 +333,7 @@ def make_nori_meshes(folder):
     write_obj(folder / "left.obj", [("left", None, panel(2, 2, minus_z, y, (-1, 1, 0)), here)])
     write_obj(folder / "right.obj", [("right", None, panel(2, 2, z, y, (1, 1, 0)), here)])
     write_obj(folder / "lamp.obj", [("lamp", None, panel(0.6, 0.5, x, z, (0, 1.995, 0)), here)])
-    write_obj(folder / "ball.obj", [("ball", None, ball(1, 0, 48, 24), here)])
+    write_obj(folder / "ball.obj", [("ball", None, ball(1, 0, 40, 20), here)])
 
 
 def main():

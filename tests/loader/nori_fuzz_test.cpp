@@ -5,7 +5,7 @@
 
 #include "tests/loader/nori_support.h"
 
-namespace kaustik {
+namespace kaustik::nori {
 namespace {
 
 const std::string whole_nori = R"(<?xml version="1.0" encoding="utf-8"?>
@@ -101,4 +101,4 @@ TEST(NoriFuzz, ExchangedPiecesAndNumbers) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::nori

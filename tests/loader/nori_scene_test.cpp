@@ -6,7 +6,7 @@
 #include "kaustik/loader/scene_format.h"
 #include "tests/loader/nori_support.h"
 
-namespace kaustik {
+namespace kaustik::nori {
 namespace {
 
 std::string format_of(const std::string& text) {
@@ -236,4 +236,4 @@ TEST(NoriErrors, FilesThatAreNoScenesAreNotQuoted) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::nori

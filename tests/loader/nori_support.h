@@ -4,7 +4,9 @@
 #include "kaustik/loader/nori_scene.h"
 #include "tests/loader/pbrt_support.h"
 
-namespace kaustik {
+namespace kaustik::nori {
+
+using namespace pbrt;
 
 inline const std::string nori_camera =
     "<camera type=\"perspective\"><integer name=\"width\" value=\"4\"/>"
@@ -27,4 +29,4 @@ inline std::shared_ptr<Object> nori_bsdf(const std::string& bsdf) {
   return bsdf_of(parse_in_nori("<mesh type=\"sphere\">" + bsdf + "</mesh>"));
 }
 
-}  // namespace kaustik
+}  // namespace kaustik::nori

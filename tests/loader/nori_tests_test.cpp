@@ -4,7 +4,7 @@
 #include "kaustik/loader/object_parts.h"
 #include "tests/loader/nori_support.h"
 
-namespace kaustik {
+namespace kaustik::nori {
 namespace {
 
 std::vector<NoriTest> read_claims(const std::string& text) {
@@ -78,4 +78,4 @@ TEST(NoriTests, AskForWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::nori

@@ -2,10 +2,10 @@
 
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/scene_format.h"
-#include "tests/loader/pbrt_support.h"
+#include "tests/loader/nori_support.h"
 #include "tests/loader/twin_support.h"
 
-namespace kaustik {
+namespace kaustik::nori {
 namespace {
 
 std::string nori_twin(const std::string& name) {
@@ -29,4 +29,4 @@ TEST(NoriTwins, DifferencesAreFound) {
 }
 
 }  // namespace
-}  // namespace kaustik
+}  // namespace kaustik::nori

@@ -6,9 +6,7 @@
 
 namespace kaustik {
 
-bool is_mitsuba_xml(std::string_view head) {
-  return root_tag(head) == "scene" && !is_nori(head);
-}
+bool is_mitsuba_xml(std::string_view head) { return root_tag(head) == "scene" && !is_nori(head); }
 
 Description load_mitsuba_xml(const std::string& path, const LoadOptions& options) {
   return mitsuba::Reader(options).read_file(path);

@@ -119,7 +119,7 @@ std::span<const uint8_t> bytes_of(const Bytes& file, const Entry& entry,
   if (entry.codec == Codec::none) return stored;
   if (entry.codec != Codec::zip)
     file.refuse("the NanoVDB file is packed by Blosc, which is not read",
-                "write it without compression, or by zlib: nanovdb_convert --zip");
+                "write it without compression, or packed by zlib");
   if (stored.size() < 8) file.damaged("it is truncated");
   const uint64_t most = always_allowed_growth + usual_growth * file.size();
   if (entry.grid_size > most) file.damaged("it grows out of all proportion");
@@ -183,7 +183,8 @@ class Walk {
       for (size_t j = 0; j < 3; ++j) rows[i][j] = grid_.at<double>(map_matrix + 8 * (3 * i + j));
       rows[i][3] = grid_.at<double>(map_offset + 8 * i);
     }
-    const Vec3d low(double(low_[0]) - 0.5, double(low_[1]) - 0.5, double(low_[2]) - 0.5);
+    const Vec3d low =
+        Vec3d{double(low_[0]), double(low_[1]), double(low_[2])} - Vec3d(0.5, 0.5, 0.5);
     const auto length = [&](size_t i) { return double(size_[i] * step_); };
     try {
       return Transform(rows) * Transform::translate(low) *
@@ -303,7 +304,7 @@ DenseGrid read_nanovdb(std::span<const uint8_t> file, const std::string& grid, s
                        const Place& place) {
   const Bytes bytes(file, place);
   if (!is_nanovdb(file))
-    bytes.refuse("this is no file of NanoVDB", "convert OpenVDB files: nanovdb_convert");
+    bytes.refuse("this is no file of NanoVDB", "convert OpenVDB files with nanovdb_convert");
   std::vector<uint8_t> unpacked;
   const Bytes tree(bytes_of(bytes, find_grid(bytes, grid), unpacked), place);
   return Walk(tree, std::max<size_t>(most_samples, 1)).result();
