@@ -245,8 +245,9 @@ TEST_F(Commands, NoIntegratorIsAnotherNameOfItself) {
     EXPECT_FALSE(contains(list, ", " + foreign.native + ",") ||
                  contains(list, ", " + foreign.native + "."))
         << sentence;
-    if (foreign.info.name == foreign.native)
+    if (foreign.info.name == foreign.native) {
       EXPECT_FALSE(contains(sentence, "Another renderer's name")) << sentence;
+    }
   }
 }
 
