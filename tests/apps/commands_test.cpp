@@ -212,7 +212,7 @@ up="0, 1, 0"/></transform><sampler type="halton"><integer name="sampleCount" val
   EXPECT_TRUE(contains(old, "samples    8 per pixel, as the scene says\n")) << old;
   EXPECT_TRUE(contains(old, "scrambled after Owen, for the scene's halton\n")) << old;
   EXPECT_TRUE(contains(old, "picture    768 × 576 pixels\n")) << old;
-  EXPECT_TRUE(contains(old, "without effect here: 'fileFormat' of film 'hdrfilm' (old.xml:8:23)\n"))
+  EXPECT_TRUE(contains(old, "without effect here: 'fileFormat' of film 'hdrfilm' (old.xml:8:22)\n"))
       << old;
   EXPECT_TRUE(contains(
       old, "without effect here: 'granularity' of integrator 'photonmapper' (old.xml:4:1)\n"))
