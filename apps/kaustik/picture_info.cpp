@@ -15,13 +15,16 @@
 namespace kaustik::app {
 namespace {
 
-/// Of channels of a layer, what stands behind its name: "R", "G", "B".
+/// Of channels of a layer, what stands behind its name: "R", "G", "B". Files sort them by name.
 std::vector<std::string> channels_of(const std::string& layer,
                                      const std::vector<std::string>& channels) {
   std::vector<std::string> letters;
   for (const std::string& name : channels)
     if (layer_names({name})[0] == layer)
       letters.push_back(layer.empty() ? name : name.substr(layer.size() + 1));
+  const auto place = [](const std::string& letter) { return std::string("RGB").find(letter); };
+  std::stable_sort(letters.begin(), letters.end(),
+                   [&](const auto& a, const auto& b) { return place(a) < place(b); });
   return letters;
 }
 

@@ -212,7 +212,7 @@ up="0, 1, 0"/></transform><sampler type="halton"><integer name="sampleCount" val
   EXPECT_TRUE(contains(old, "samples    8 per pixel, as the scene says\n")) << old;
   EXPECT_TRUE(contains(old, "scrambled after Owen, for the scene's halton\n")) << old;
   EXPECT_TRUE(contains(old, "picture    768 × 576 pixels\n")) << old;
-  EXPECT_TRUE(contains(old, "without effect here: 'fileFormat' of film 'hdrfilm' (old.xml:8:23)\n"))
+  EXPECT_TRUE(contains(old, "without effect here: 'fileFormat' of film 'hdrfilm' (old.xml:8:22)\n"))
       << old;
   EXPECT_TRUE(contains(
       old, "without effect here: 'granularity' of integrator 'photonmapper' (old.xml:4:1)\n"))
@@ -245,8 +245,9 @@ TEST_F(Commands, NoIntegratorIsAnotherNameOfItself) {
     EXPECT_FALSE(contains(list, ", " + foreign.native + ",") ||
                  contains(list, ", " + foreign.native + "."))
         << sentence;
-    if (foreign.info.name == foreign.native)
+    if (foreign.info.name == foreign.native) {
       EXPECT_FALSE(contains(sentence, "Another renderer's name")) << sentence;
+    }
   }
 }
 

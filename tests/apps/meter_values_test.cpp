@@ -1,5 +1,7 @@
 // What `kaustik render` tells of meters: lux and cd/m², with intervals.
 
+#include <cstdlib>
+
 #include "tests/apps/program.h"
 
 namespace kaustik::test {
@@ -14,11 +16,18 @@ class MeterValues : public ProgramTest {
           "name=\"radiance\" value=\"1\"/></emitter>" +
               sensor + "</scene>");
   }
-  RunResult rendered(const std::string& sensor, const std::string& passes = "2") const {
+  RunResult rendered(const std::string& sensor, const std::string& passes = "16") const {
     write_scene(sensor);
-    return run_well({"render", "scene.xml", "--passes", passes, "--spp", "8", "--progress-file",
+    return run_well({"render", "scene.xml", "--passes", passes, "--spp", "4096", "--progress-file",
                      "events.jsonl", "-o", "a.exr"});
   }
+  /// The number behind those words; 0: there is none.
+  static double number_behind(const std::string& text, const std::string& words) {
+    const size_t at = text.find(words);
+    return at == std::string::npos ? 0 : std::atof(text.c_str() + at + words.size());
+  }
+  /// By some ten of its standard errors.
+  static void expect_illuminance(double value) { EXPECT_NEAR(value, 562.345, 1.5); }
 };
 
 const std::string film =
@@ -30,13 +39,15 @@ const std::string point =
 
 TEST_F(MeterValues, OfPointsAreIlluminances) {
   const RunResult result = rendered(point);
-  EXPECT_TRUE(contains(result.err, "illuminance: 562.345 ± ")) << result.err;
-  EXPECT_TRUE(contains(result.err, " lx (95 % confidence, 2 passes)\n")) << result.err;
+  expect_illuminance(number_behind(result.err, "illuminance: "));
+  const double half_width = number_behind(result.err, " ± ");
+  EXPECT_GT(half_width, 0);
+  EXPECT_LT(half_width, 1.5);
+  EXPECT_TRUE(contains(result.err, " lx (95 % confidence, 16 passes)\n")) << result.err;
   EXPECT_FALSE(contains(result.err, "mean of the picture")) << result.err;
   EXPECT_FALSE(contains(result.err, "wider than")) << result.err;
   const std::string events = contents("events.jsonl");
-  EXPECT_TRUE(contains(events, R"({"event":"measured","x":1,"y":2,"z":3,"value":562.34)"))
-      << events;
+  expect_illuminance(number_behind(events, R"({"event":"measured","x":1,"y":2,"z":3,"value":)"));
   EXPECT_TRUE(contains(events, R"("unit":"lx"})")) << events;
 }
 
@@ -44,8 +55,8 @@ TEST_F(MeterValues, OfShapesAreIlluminances) {
   const RunResult result = rendered(
       "<shape type=\"rectangle\"><bsdf type=\"diffuse\"/><sensor type=\"irradiancemeter\">" + film +
       "</sensor></shape>");
-  EXPECT_TRUE(contains(result.err, "illuminance: 562.3")) << result.err;
-  EXPECT_TRUE(contains(result.err, " lx (95 % confidence, 2 passes)\n")) << result.err;
+  expect_illuminance(number_behind(result.err, "illuminance: "));
+  EXPECT_TRUE(contains(result.err, " lx (95 % confidence, 16 passes)\n")) << result.err;
 }
 
 TEST_F(MeterValues, OfRaysAreLuminances) {
@@ -53,14 +64,14 @@ TEST_F(MeterValues, OfRaysAreLuminances) {
     const RunResult result =
         rendered("<sensor type=\"" + std::string(type) + "\">" + film + "</sensor>");
     EXPECT_TRUE(contains(result.err, "luminance: 179 ± ")) << result.err;
-    EXPECT_TRUE(contains(result.err, " cd/m² (95 % confidence, 2 passes)\n")) << result.err;
+    EXPECT_TRUE(contains(result.err, " cd/m² (95 % confidence, 16 passes)\n")) << result.err;
   }
 }
 
 // One pass tells nothing of the error.
 TEST_F(MeterValues, WideIntervalsAreToldWithWhatToDo) {
   const RunResult result = rendered(point, "1");
-  EXPECT_TRUE(contains(result.err, "illuminance: 562.345 ± unknown lx")) << result.err;
+  EXPECT_TRUE(contains(result.err, " ± unknown lx (")) << result.err;
   EXPECT_TRUE(contains(result.err, "wider than ± 10 %") && contains(result.err, "--error 2%"))
       << result.err;
   EXPECT_TRUE(contains(contents("events.jsonl"), R"("half_width":null)"));

@@ -509,7 +509,7 @@ TEST(BuildScene, ParametersWithoutEffectAreReportedOnce) {
   ASSERT_EQ(scene->warnings().size(), 1u);
   EXPECT_EQ(scene->warnings()[0],
             "without effect here: 'shutter_close' of sensor 'perspective' (test.xml:3:1), "
-            "'shutter_open' of sensor 'perspective' (test.xml:2:29)");
+            "'shutter_open' of sensor 'perspective' (test.xml:2:28)");
 }
 
 /// `levels` bsdfs, a line each, every one made of the one before, twice if `twice`.

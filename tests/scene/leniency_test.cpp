@@ -182,7 +182,7 @@ TEST(Leniency, WhatChangesNoLightIsTaken) {
   description.is_strict = true;
   EXPECT_EQ(build_scene(description)->warnings(),
             std::vector<std::string>{
-                "without effect here: 'strategy' of medium 'homogeneous' (test.xml:3:48)"});
+                "without effect here: 'strategy' of medium 'homogeneous' (test.xml:3:44)"});
 }
 
 TEST(Leniency, MixturesOfPhaseFunctions) {

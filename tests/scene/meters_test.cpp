@@ -268,7 +268,7 @@ TEST(Cameras, ASpectralResponseIsTold) {
       std::string(any_shape));
   ASSERT_EQ(scene->warnings().size(), 1u);
   EXPECT_EQ(scene->warnings()[0],
-            "without effect here: 'srf' of sensor 'radiancemeter' (test.xml:2:32)");
+            "without effect here: 'srf' of sensor 'radiancemeter' (test.xml:2:30)");
 }
 
 }  // namespace
