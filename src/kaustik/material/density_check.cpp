@@ -1,19 +1,30 @@
 #include "kaustik/material/density_check.h"
 
 #include <algorithm>
+#include <random>
 
-#include "kaustik/base/sampler.h"
 #include "kaustik/image/photometry.h"
 
 namespace kaustik {
 namespace {
 
-/// Independent of those of other indices.
-BsdfSample drawn_sample(const Bsdf& bsdf, const Vec3f& wo, uint64_t seed, uint64_t index) {
-  Sampler sampler(hash_mix(seed, index), 0);
-  const float u_lobe = sampler.next_1d();
-  return bsdf.sample({}, wo, u_lobe, sampler.next_2d(), Lobes::all);
-}
+/// Independent numbers, as tests want them: those of renders are more even.
+class Samples {
+ public:
+  Samples(const Bsdf& bsdf, const Vec3f& wo, uint64_t seed) : bsdf_(bsdf), wo_(wo), bits_(seed) {}
+  BsdfSample next() {
+    const float u_lobe = number(), x = number(), y = number();
+    return bsdf_.sample({}, wo_, u_lobe, {x, y}, Lobes::all);
+  }
+
+ private:
+  /// 0 ≤ u < 1
+  float number() { return float(bits_() >> 40) * 0x1p-24f; }
+
+  const Bsdf& bsdf_;
+  Vec3f wo_;
+  std::mt19937_64 bits_;
+};
 
 }  // namespace
 
@@ -52,8 +63,8 @@ double check_density(const Bsdf& bsdf, const Vec3f& wo, const DensityQuestion& q
                      uint64_t seed) {
   const DirectionGrid grid = DirectionGrid::even(question.rows);
   CellCounts observed(grid.size() + 1);
-  for (int i = 0; i < question.samples; ++i)
-    observed[counted_cell(drawn_sample(bsdf, wo, seed, uint64_t(i)), grid)] += 1;
+  Samples samples(bsdf, wo, seed);
+  for (int i = 0; i < question.samples; ++i) observed[counted_cell(samples.next(), grid)] += 1;
   return density_p_value(std::move(observed),
                          expected_counts(bsdf, wo, Lobes::all, grid, question.samples),
                          question.minimum_expected);
@@ -62,8 +73,9 @@ double check_density(const Bsdf& bsdf, const Vec3f& wo, const DensityQuestion& q
 RunningStatistics sampled_reflectance(const Bsdf& bsdf, const Vec3f& wo, int64_t samples,
                                       uint64_t seed) {
   RunningStatistics result;
+  Samples drawn(bsdf, wo, seed);
   for (int64_t i = 0; i < samples; ++i) {
-    const Spectrum weight = drawn_sample(bsdf, wo, seed, uint64_t(i)).weight;
+    const Spectrum weight = drawn.next().weight;
     result.add(double(photopic({weight[0], weight[1], weight[2]})));
   }
   return result;

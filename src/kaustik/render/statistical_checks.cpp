@@ -74,8 +74,9 @@ double sampling_p_value(const Description& description, int direction, const Den
     throw Error(ErrorKind::input, "the bsdf has no density to check",
                 "mirrors and clear glass send light one way: leave them out",
                 description.scene->place);
-  const Vec2f u = Sampler(hash_mix(effort.seed, uint64_t(direction)), 0).next_2d();
-  const Vec3f wo = direction_at(double(u.x), 2 * std::numbers::pi * double(u.y));
+  const uint64_t bits = hash_mix(effort.seed, uint64_t(direction));
+  const double height = double(bits >> 40) * 0x1p-24, turn = double(bits & 0xffffff) * 0x1p-24;
+  const Vec3f wo = direction_at(height, 2 * std::numbers::pi * turn);
   return check_density(*bsdf, wo, {cells.rows, int(effort.samples), cells.minimum_expected},
                        hash_mix(effort.seed, 1 + uint64_t(direction)));
 }
