@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -56,8 +57,11 @@ const std::vector<std::string>& scene_extensions() {
     std::vector<std::string> all;
     for (const SceneFormat& format : scene_formats())
       for (const std::string_view extension : format.extensions)
-        for (const char* const packing : {"", ".gz"})
-          all.push_back(std::string(extension.substr(1)) + packing);
+        for (const char* const packing : {"", ".gz"}) {
+          const std::string name = std::string(extension.substr(1)) + packing;
+          // Two formats may share one.
+          if (std::ranges::find(all, name) == all.end()) all.push_back(name);
+        }
     return all;
   }();
   return extensions;

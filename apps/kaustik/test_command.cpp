@@ -84,8 +84,7 @@ void run_tests(const TestOptions& options) {
 }  // namespace
 
 void add_test(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
-      "test", "Run the statistical tests of a Nori file and print what they find.");
+  CLI::App* command = program.add_subcommand("test", "Run the statistical tests of a Nori file.");
   auto o = std::make_shared<TestOptions>();
   takes_files(command->add_option("tests", o->file, "File of tests (Nori XML)")->required(),
               {".xml"});

@@ -121,9 +121,9 @@ class BoundsFinder {
 
   Bounds3f of_positions(const Array& positions) {
     const auto [entry, is_new] = meshes_.try_emplace(&positions);
-    if (!is_new) return entry->second;
-    positions.visit([&](auto values) { entry->second = of_points(values); });
-    return entry->second;
+    Bounds3f& bounds = entry->second;
+    if (is_new) positions.visit([&](auto values) { bounds = of_points(values); });
+    return bounds;
   }
 
   std::map<const Object*, Bounds3f> groups_;

@@ -42,8 +42,6 @@ std::shared_ptr<Object> vertex_attribute(const char* name, const Place& place) {
 
 }  // namespace
 
-const JsonValue MaterialReader::nothing_{JsonValue::Members(), 0};
-
 MaterialReader::MaterialReader(const File& file, Textures& textures, const Options& options,
                                Deviations& deviations, const JsonValue& material, std::string name,
                                const SurfaceUse& use)

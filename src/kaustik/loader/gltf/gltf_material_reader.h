@@ -77,10 +77,10 @@ class MaterialReader {
   std::string name_;
   SurfaceUse use_;
   Place place_;
+  JsonValue nothing_{JsonValue::Members(), 0};
   const JsonValue* base_;        ///< pbrMetallicRoughness, or nothing
   const JsonValue* glossiness_;  ///< the archived model, where it takes the place of that; or null
   double transmission_ = 0;
-  static const JsonValue nothing_;
 };
 
 /// "clearcoatTexture" and the like of a material, all that it has.

@@ -92,8 +92,7 @@ Rgb albedo_of(const Rgb& scattering, const Rgb& extinction) {
 }  // namespace
 
 std::string substance_named(const std::string& name) {
-  const std::string_view wanted =
-      is_same_name(name, "orange powder") ? "orange juice powder" : name;
+  const std::string wanted = is_same_name(name, "orange powder") ? "orange juice powder" : name;
   for (const std::string_view known : substances)
     if (is_same_name(known, wanted)) return std::string(known);
   return {};
