@@ -45,8 +45,9 @@ void print_picture(const std::string& path) {
   for (const std::string& layer : layer_names(image.channel_names()))
     fmt::print("layer      {}{}\n", layer.empty() ? "" : layer + ": ",
                fmt::join(channels_of(layer, image.channel_names()), ", "));
-  for (const auto& [key, value] : image.metadata())
-    std::visit([&](const auto& shown) { fmt::print("metadata   {}: {}\n", key, shown); }, value);
+  for (const auto& entry : image.metadata())
+    std::visit([&](const auto& shown) { fmt::print("metadata   {}: {}\n", entry.first, shown); },
+               entry.second);
 }
 
 }  // namespace kaustik::app
