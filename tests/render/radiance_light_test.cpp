@@ -41,7 +41,9 @@ void expect_irradiance(const std::string& what, const std::string& text, double 
   const Comparison comparison(found, expected);
   EXPECT_LT(comparison.relative_error(), 0.004);
   EXPECT_GT(comparison.p_value_of_nearness(0.002), check_level()) << found.mean();
-  EXPECT_LT(Comparison(found, 1.02 * expected).p_value_of_equality(), check_level());
+  // Of few passes little is sure.
+  EXPECT_LT(Comparison(found, 1.02 * expected).p_value_of_equality(),
+            slow_build ? 0.01 : check_level());
 }
 
 // A square of 2 s on its side, h above: 4 times the form factor of a quarter.
