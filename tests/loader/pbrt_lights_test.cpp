@@ -287,6 +287,18 @@ TEST(PbrtMedia, FilesOfNanoVdbAreGrids) {
                   Transform::scale({10, 10, 18}));
 }
 
+TEST(PbrtMedia, DamagedFilesOfNanoVdbAreMissing) {
+  const TemporaryFolder folder;
+  folder.write("smoke.nvdb", "hello");
+  const Description scene = parse_scene_of_pbrt(R"(WorldBegin
+    MakeNamedMedium "smoke" "string type" "nanovdb" "string filename" "smoke.nvdb"
+    MediumInterface "smoke" "" Shape "sphere")",
+                                                false, folder / "");
+  EXPECT_TRUE(is_missing(scene, "'smoke'", "no file of NanoVDB"));
+  EXPECT_TRUE(only(scene, "shape").children.empty() ||
+              only(scene, "shape").children[0].name != "interior");
+}
+
 TEST(PbrtMedia, TheOthersAreTold) {
   const Description scene = parse_scene_of_pbrt(R"(WorldBegin
     MakeNamedMedium "a" "string type" "nanovdb" "string filename" "x.nvdb"

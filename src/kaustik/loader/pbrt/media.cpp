@@ -253,7 +253,17 @@ std::shared_ptr<Object> Media::make_nanovdb(const MediumDefinition& definition) 
   const Coefficients coefficients = this->coefficients(definition);
   const size_t most_samples =
       (always_kept_bytes + 4 * bytes.size()) / (coefficients.components() * sizeof(float));
-  const DenseGrid dense = read_nanovdb(bytes, grid, most_samples, place_in(path->string()));
+  DenseGrid dense;
+  try {
+    dense = read_nanovdb(bytes, grid, most_samples, place_in(path->string()));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    deviations_.missing(definition.owner.object,
+                        fmt::format("{} cannot be read: {}: space is empty there", shown(file),
+                                    error.problems().front().message),
+                        list.place_of("filename"));
+    return nullptr;
+  }
   if (dense.voxels_per_sample > 1)
     deviations_.approximated(
         definition.owner.object,
