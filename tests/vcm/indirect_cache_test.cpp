@@ -113,8 +113,8 @@ TEST(IndirectCache, IsForWhatMirrorsShow) {
   EXPECT_FALSE(finds(R"(<bsdf type="roughconductor"><float name="alpha" value="0.2"/></bsdf>)"));
 }
 
-/// Where the camera sees the furnace in a mirror or through clear glass, it has the light of what is seen.
-/// They are so small that gather rays hardly ever meet them.
+/// Where the camera sees the furnace in a mirror or through clear glass, it has the light of what
+/// is seen. They are so small that gather rays hardly ever meet them.
 TEST(IndirectCache, HasTheLightThatMirrorsShow) {
   for (const std::string& bsdf : {mirror(), glass(1.0)}) {
     const TestScene scene(
