@@ -8,7 +8,6 @@ Usage: portable_wheel.py FOLDER; prints what it carries, and writes FOLDER/kaust
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
@@ -17,8 +16,8 @@ import build_backend
 sys.path.insert(0, str(build_backend.root / "scripts"))
 import carried_libraries as libraries  # noqa: E402
 
-#: Of libraries that are compiled in: a header of each tells the package. Boost's licence asks for no text there.
-compiled_in = {"/usr/include/nlohmann/json.hpp": "MIT", "/usr/include/pybind11/pybind11.h": "BSD-3-Clause"}
+#: Besides libraries.compiled_in.
+compiled_in = {"/usr/include/pybind11/pybind11.h": "BSD-3-Clause"}
 #: Bytes that a wheel may have.
 largest = 25_000_000
 
@@ -41,12 +40,7 @@ def make(folder: str) -> pathlib.Path:
         [module_name] = [key for key in files if key.endswith(".so")]
         module = work / pathlib.PurePath(module_name).name
         shutil.copy(package / module.name, module)
-        carried = libraries.carried_libraries(module, no_jbig, place)
-        subprocess.run(["strip", "--strip-unneeded", str(module)], check=True)
-        carried.lead(module, "$ORIGIN/../kaustik.libs")
-        libraries.tell(module, "Apache-2.0")
-        carried.tell()
-        libraries.check_bounds((module, *place.iterdir()))
+        carried = libraries.make_portable(module, "unneeded", no_jbig, place, "$ORIGIN/../kaustik.libs")
         files[module_name] = module.read_bytes()
         files.update({f"kaustik.libs/{path.name}": path.read_bytes() for path in sorted(place.iterdir())})
         texts = libraries.licence_texts(carried, compiled_in, "in kaustik.libs")

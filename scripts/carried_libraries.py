@@ -26,6 +26,9 @@ licences = {
     "libpng16-16": "libpng-2.0", "zlib1g": "Zlib", "libdeflate0": "MIT", "libfmt9": "MIT", "libpugixml1v5": "MIT",
     "liblzma5": "LicenseRef-PublicDomain",
 }
+#: Of libraries that are compiled into the program and the module: a header of each tells the package. Boost's licence
+#: asks for no text there.
+compiled_in = {"/usr/include/nlohmann/json.hpp": "MIT"}
 #: Versions that they, and what carries them, may ask for: glibc 2.34 and GCC 11, as of 2021.
 bounds = {"GLIBC": (2, 34), "GLIBCXX": (3, 4, 29), "CXXABI": (1, 3, 13)}
 
@@ -127,6 +130,18 @@ def carried_libraries(binary: pathlib.Path, no_jbig: pathlib.Path, folder: pathl
     return carried
 
 
+def make_portable(binary: pathlib.Path, symbols: str, no_jbig: pathlib.Path, folder: pathlib.Path, origin: str) -> Carried:
+    """Puts all that the program or module needs into the folder, where it finds it by `origin`, strips the binary of
+    `symbols` ("all", "unneeded"), and prints what there is. Fails if something asks for later versions than may be."""
+    carried = carried_libraries(binary, no_jbig, folder)
+    subprocess.run(["strip", f"--strip-{symbols}", str(binary)], check=True)
+    carried.lead(binary, origin)
+    tell(binary, "Apache-2.0")
+    carried.tell()
+    check_bounds((binary, *folder.iterdir()))
+    return carried
+
+
 def no_jbig(build: pathlib.Path) -> pathlib.Path:
     """What is carried instead of libjbig; it is built if need be."""
     subprocess.run(["cmake", "--build", str(build), "--target", "kaustik_no_jbig"], check=True)
@@ -145,11 +160,11 @@ def table(listed: dict) -> str:
     return "".join(f"{name:{widths[0]}}  {version:{widths[1]}}  {licence}\n" for name, version, licence in rows)
 
 
-def licence_texts(carried: Carried, compiled_in: dict, place: str) -> dict:
-    """The files that tell the licences, by their names. compiled_in: of libraries that are compiled in, by a header of
-    each; place: where the libraries are, in words."""
+def licence_texts(carried: Carried, also_compiled_in: dict, place: str) -> dict:
+    """The files that tell the licences, by their names. also_compiled_in: as `compiled_in`; place: where the libraries
+    are, in words."""
     listed = {package: licence_of(package) for package in set(carried.packages.values()) - {""}}
-    listed.update({package_of(pathlib.Path(header)): licence for header, licence in compiled_in.items()})
+    listed.update({package_of(pathlib.Path(header)): licence for header, licence in (compiled_in | also_compiled_in).items()})
     head = f"The libraries {place} and what is compiled in are Debian's. Each line has a package, its version and its\n" \
            "licence; the licence's text is the file of the package's name beside this. libjbig is a part of Kaustik that\n" \
            "stands in for the library of that name.\n\n"

@@ -131,10 +131,14 @@ BEGIN {
   sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["live"]; sees_all["view"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
 
+  allow_folder("loader/pbrt", "")
+  allow_folder("loader/gltf", "")
   allow_folder("photon/kd_tree", "")
   allow_folder("photon/emission", "")
   allow_folder("photon/coverage", "")
   # Plans hold what lessons taught, and lessons change plans: the two know each other.
+  allow_folder("loader/radiance", "")
+  allow_folder("loader/nori", "")
   allow_folder("vcm/merging", "")
   allow_folder("vcm/gathering", "")
   allow_folder("vcm/light_path", "")
@@ -161,7 +165,7 @@ BEGIN {
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
   own("Boost", "^boost/", "view", not_in_word "boost::")
-  own("nlohmann-json", "^nlohmann/", "view", not_in_word "nlohmann::")
+  own("nlohmann-json", "^nlohmann/", "loader view", not_in_word "nlohmann::")
   system_headers = "^(sys/[a-z]+|sanitizer/tsan_interface|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll|netdb)\\.h$"
 }
 

@@ -22,8 +22,17 @@ PAGE = ROOT / "docs/scenes.md"
 RADIANCE = ROOT / "out/scenes"  # the same with all layers, not kept
 
 SQUARE, WIDE = "-D size=1280", "-D width=1280 -D height=960"
+FILE_SQUARE, FILE_WIDE = (f"--set film.width=1280 --set film.height={height}" for height in (1280, 960))
 BRIGHT = SQUARE + " --tonemap reinhard"
-# Of each: options of the size and the tones, time, what it shows. README.md shows some.
+# Files below scenes/ that are not NAME/NAME.xml.
+FILES = {
+    "pbrt": "formats/pbrt/drink.pbrt",
+    "gltf": "formats/gltf/still_life.glb",
+    "obj": "formats/obj/goblets.obj",
+    "radiance": "formats/radiance/office.rif",
+    "nori": "formats/nori/box.xml",
+}
+# Of each: options of the size and the tones, time, what it shows. README.md and docs/formats show some.
 SCENES = {
     "atrium": (SQUARE, "3m", "72 crystals above a fountain"),
     "pool_below": (BRIGHT, "3m", "caustics through real waves"),
@@ -36,6 +45,11 @@ SCENES = {
     "metal_ring": (SQUARE, "2m", "gold, a small lamp, the cardioid inside"),
     "cornell_box": (SQUARE, "1m", "the box as it was measured"),
     "cornell_spheres": (SQUARE, "2m", "mirror and glass in the box"),
+    "pbrt": (FILE_WIDE, "2m", "a scene of pbrt: tea, flint glass, gold, a translucent pebble"),
+    "gltf": (FILE_WIDE, "2m", "a scene in glTF: crystal, stones, gold, a spot lamp"),
+    "obj": (FILE_WIDE, "2m", "an OBJ file with its materials, in the studio that files without lamps get"),
+    "radiance": (FILE_WIDE, "2m", "a scene of Radiance: sun and sky through a blind, a desk lamp"),
+    "nori": (FILE_SQUARE, "1m", "a scene of Nori: glass and mirror in a box"),
 }
 
 
@@ -54,9 +68,13 @@ def facts_of(log):
             "pixels": pixels[1] if pixels else None}
 
 
+def file_of(name):
+    return "scenes/" + FILES.get(name, f"{name}/{name}.xml")
+
+
 def make_picture(program, name, made):
     options, time, _ = SCENES[name]
-    command = ["render", f"scenes/{name}/{name}.xml", *options.split(), "--time", time, "--denoise", "-o", f"{name}.jpg"]
+    command = ["render", file_of(name), *options.split(), "--time", time, "--denoise", "-o", f"{name}.jpg"]
     arguments = command[:-1] + [str(PICTURES / f"{name}.jpg"), "-o", str(RADIANCE / f"{name}.exr"), "--progress", "plain"]
     made[name] = {"command": "kaustik " + " ".join(command), "time": time, "cores": os.cpu_count(),
                   **facts_of(run(program, *arguments))}
@@ -76,7 +94,7 @@ def page(made):
     for name, (_, _, shows) in SCENES.items():
         if name in made:
             lines += [f"## {name}", "", f"![{name}: {shows}](pictures/scenes/{name}.jpg)", "",
-                      f"[`{name}`](../scenes/{name}): {shows}. {said_of(made[name])}.", "",
+                      f"[`{name}`](../{pathlib.PurePath(file_of(name)).parent}): {shows}. {said_of(made[name])}.", "",
                       "```sh", made[name]["command"], "```", ""]
     return "\n".join(lines)
 

@@ -21,8 +21,8 @@ import carried_libraries as libraries
 
 root = pathlib.Path(__file__).resolve().parent.parent
 
-#: Of libraries that are compiled in: a header of each tells the package. Boost's licence asks for no text there.
-compiled_in = {"/usr/include/nlohmann/json.hpp": "MIT", "/usr/include/CLI/CLI.hpp": "BSD-3-Clause"}
+#: Besides libraries.compiled_in.
+compiled_in = {"/usr/include/CLI/CLI.hpp": "BSD-3-Clause"}
 
 readme = """\
 Kaustik {version}, a photon mapping renderer. This folder may lie anywhere; nothing has to be installed. Licence: Apache 2.0 (LICENSE).
@@ -57,12 +57,7 @@ def fill(folder: pathlib.Path, build: pathlib.Path, version: str, machine: str) 
     program = folder / "bin" / "kaustik"
     place = folder / "lib" / "kaustik"
     place.mkdir(parents=True)
-    carried = libraries.carried_libraries(program, no_jbig, place)
-    subprocess.run(["strip", "--strip-all", str(program)], check=True)
-    carried.lead(program, "$ORIGIN/../lib/kaustik")
-    libraries.tell(program, "Apache-2.0")
-    carried.tell()
-    libraries.check_bounds((program, *place.iterdir()))
+    carried = libraries.make_portable(program, "all", no_jbig, place, "$ORIGIN/../lib/kaustik")
     for name, text in libraries.licence_texts(carried, compiled_in, "in lib/kaustik").items():
         path = folder / "share" / "doc" / "kaustik" / "LICENSES" / name
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -5,7 +5,8 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-failures=0
+# shellcheck source=tests/support/planted_mistakes.sh
+source "$root/tests/support/planted_mistakes.sh"
 
 # Pages that are right, around docs/page.md.
 mkdir -p "$folder/docs/pictures" "$folder/scenes/ring"
@@ -31,18 +32,6 @@ PAGE
 check_page() {
   cat >"$folder/docs/page.md"
   "$root"/scripts/check_docs.py --root "$folder" 2>&1
-}
-
-# plant MESSAGE: the page on standard input must be refused with that message.
-plant() {
-  local output
-  if output=$(check_page); then
-    echo "not found: '$1'"
-    failures=$((failures + 1))
-  elif [[ $output != *"$1"* ]]; then
-    printf "instead of '%s' came\n%s\n" "$1" "$output"
-    failures=$((failures + 1))
-  fi
 }
 
 long="words that make a line long $(printf 'very %.0s' {1..30})"

@@ -4,7 +4,8 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-failures=0
+# shellcheck source=tests/support/planted_mistakes.sh
+source "$root/tests/support/planted_mistakes.sh"
 
 # check FILE LINE: what the check says of the sources with LINE at the end of FILE.
 check() {
@@ -14,16 +15,7 @@ check() {
   "$root"/scripts/check_messages.sh "$copy"
 }
 
-plant() {
-  local place output
-  place="$1:$(($(wc -l <"$root/$1") + 2)): "
-  if output=$(check "$1" "$2") || [[ $output != *"$place"* ]]; then
-    printf "not found: '%s' in %s\n%s\n" "$2" "$1" "$output"
-    failures=$((failures + 1))
-  else
-    echo "$output"
-  fi
-}
+plant() { must_be_refused "$1:$(($(wc -l <"$root/$1") + 2)): " check "$1" "$2"; }
 
 spare() {
   local output

@@ -6,23 +6,12 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 program=$(realpath "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-failures=0
+# shellcheck source=tests/support/planted_mistakes.sh
+source "$root/tests/support/planted_mistakes.sh"
 
 check_page() {
   cat >"$folder/page.md"
   "$root"/scripts/docs_commands.py "$program" "$folder/page.md" 2>&1
-}
-
-# plant MESSAGE: the page on standard input must be refused with that message.
-plant() {
-  local output
-  if output=$(check_page); then
-    echo "not found: '$1'"
-    failures=$((failures + 1))
-  elif [[ $output != *"$1"* ]]; then
-    printf "instead of '%s' came\n%s\n" "$1" "$output"
-    failures=$((failures + 1))
-  fi
 }
 
 check_page <<'PAGE' || failures=$((failures + 1))
@@ -112,7 +101,6 @@ PAGE
 
 # plant_help MESSAGE TEXT: so must a program whose `learn --help` ends with TEXT.
 plant_help() {
-  local output
   cat >"$folder/kaustik" <<SCRIPT
 #!/bin/sh
 "$program" "\$@"
@@ -121,13 +109,7 @@ status=\$?
 exit \$status
 SCRIPT
   chmod +x "$folder/kaustik"
-  if output=$("$root"/scripts/docs_commands.py "$folder/kaustik" help 2>&1); then
-    echo "not found in help: '$1'"
-    failures=$((failures + 1))
-  elif [[ $output != *"$1"* ]]; then
-    printf "instead of '%s' came\n%s\n" "$1" "$output"
-    failures=$((failures + 1))
-  fi
+  must_be_refused "$1" "$root"/scripts/docs_commands.py "$folder/kaustik" help
 }
 plant_help "kaustik learn --help:" "  kaustik learn scene.xml -o b.kln --no-such-option"
 plant_help "no 'kaustik lern'" "Learn with it: -o, or so (kaustik lern)."

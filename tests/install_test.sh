@@ -137,6 +137,26 @@ check_pkg_config() {
   "$compiler" -std=c++20 "$work/consumer/main.cpp" -o "$work/by_pkg_config" $flags -Wl,-rpath,"$(dirname "$folder")" ||
     fail "pkg-config's flags do not build the example: $flags"
   check_mean scene 0.5 "$("$work/by_pkg_config")"
+  # The whole program of the manual.
+  awk '/^```cpp/ { inside = 1; text = ""; next }
+       /^```/ { if (inside && text ~ /int main/) printf "%s", text; inside = 0 }
+       inside { text = text $0 "\n" }' "$root/docs/guides/cpp.md" >"$work/manual.cpp"
+  # shellcheck disable=SC2086 # they are words
+  "$compiler" -std=c++20 "$work/manual.cpp" -o "$work/manual" $flags -Wl,-rpath,"$(dirname "$folder")" ||
+    fail "the program of docs/guides/cpp.md does not compile"
+  make_sky
+  output=$("$work/manual" "$work/sky.xml" "$work/manual.exr")
+  [[ $output == "mean: 2.0000 W/(sr·m²)" && -s $work/manual.exr ]] || fail "the manual's program has told: $output"
+}
+
+# A sky of radiance 2.
+make_sky() {
+  cat >"$work/sky.xml" <<'EOF'
+<scene version="3.0.0">
+  <emitter type="constant"><rgb name="radiance" value="2"/></emitter>
+  <sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film></sensor>
+</scene>
+EOF
 }
 
 install_component program
@@ -163,12 +183,7 @@ check_pkg_config
 output=$("$work/consumer/build/rippled_glass" "$work/glass.jpg" 32 2 2>"$work/log") || fail "$(cat "$work/log")"
 [[ -s $work/glass.jpg && $output == *"irradiance at (-0.3, -1): "*" W/m²"* ]] || fail "rippled_glass has told: $output"
 
-cat >"$work/sky.xml" <<'EOF'
-<scene version="3.0.0">
-  <emitter type="constant"><rgb name="radiance" value="2"/></emitter>
-  <sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film></sensor>
-</scene>
-EOF
+make_sky
 check_mean scene 2 "$("$work/consumer/build/mean_radiance" "$work/sky.xml" "$work/sky.exr")"
 [[ -s $work/sky.exr ]] || fail "the example wrote no picture"
 status=0

@@ -19,6 +19,7 @@ void add_merge(CLI::App& program);
 void add_view(CLI::App& program);
 void add_stitch(CLI::App& program);
 void add_convert(CLI::App& program);
+void add_test(CLI::App& program);
 void add_help(CLI::App& program);
 void add_man(CLI::App& program);
 void add_completion(CLI::App& program);

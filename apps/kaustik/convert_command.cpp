@@ -13,9 +13,11 @@
 #include "kaustik/loader/mitsuba3_terms.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
+#include "kaustik/scene/deviation_report.h"
 #include "kaustik/scene/named_in.h"
 #include "kaustik/scene/picture_as_exr.h"
 #include "kaustik/scene/shape_as_ply.h"
+#include "kaustik/scene/volume_as_vol.h"
 #include "option_values.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -62,6 +64,7 @@ Place source_place(const Object& object) {
 }
 
 std::vector<uint8_t> made_contents(const FileToWrite& file) {
+  if (file.is_volume()) return volume_as_vol(*file.source);
   if (!file.is_mesh()) return picture_as_exr(*file.source, file.factor);
   ShapeAsPly mesh = shape_as_ply(*file.source);
   if (mesh.is_flat)
@@ -103,6 +106,7 @@ void convert(const ConvertOptions& options) {
   for (const FileToWrite& file : scene.files) writes(file.path);
   // Refuses what XML cannot hold, before anything is written.
   mitsuba_xml(scene.description, description_types(), folder, scene.version);
+  for (const std::string& line : deviation_lines(description)) warn(line);
   for (const std::string& remark : scene.remarks) warn(remark);
   NewFiles written;
   for (const FileToWrite& file : scene.files) written.write(file.path, contents_of(file));
@@ -112,7 +116,9 @@ void convert(const ConvertOptions& options) {
   written.keep();
   for (const FileToWrite& file : scene.files)
     say("wrote {}: {}, which Mitsuba 3 would read differently from its old file", file.path,
-        file.is_mesh() ? "a mesh" : "a picture");
+        file.is_mesh()     ? "a mesh"
+        : file.is_volume() ? "a volume"
+                           : "a picture");
   say("wrote {}: {} in Mitsuba 3's XML; all {}meshes and pictures are named as before",
       options.output, options.scene, scene.files.empty() ? "" : "other ");
 }
@@ -125,8 +131,9 @@ void add_convert(CLI::App& program) {
   command->footer(
       "The new file refers to meshes and pictures in their places, relative to its own folder. "
       "Mitsuba 3 reads some of them differently (parts of OBJ files, height fields, scaled "
-      "textures …). These become PLY and EXR files beside the new file; their names begin with its "
-      "name.\n"
+      "textures …). These become PLY, EXR and VOL files beside the new file; their names begin "
+      "with "
+      "its name.\n"
       "  kaustik convert scene.xml -o mitsuba3.xml");
   auto o = std::make_shared<ConvertOptions>();
   add_scene(*command, o->scene);

@@ -90,6 +90,10 @@ void Events::written(const std::string& file, const JsonObject& facts) {
   if (stream_) stream_->send(event_of("written").add("file", file).append(facts), Need::lasting);
 }
 
+void Events::measured(const JsonObject& facts) {
+  if (stream_) stream_->send(event_of("measured").append(facts), Need::lasting);
+}
+
 void Events::result(const std::string& reason, const JsonObject& facts) {
   reason_ = reason;
   facts_ = facts;

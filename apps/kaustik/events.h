@@ -26,6 +26,8 @@ class Events {
   void progress(double fraction, double elapsed_s);
   /// A file was written; `facts` tell what it shows.
   void written(const std::string& file, const JsonObject& facts);
+  /// What a meter has measured.
+  void measured(const JsonObject& facts);
   /// How the command's work ended, for end().
   void result(const std::string& reason, const JsonObject& facts);
   /// The last line; `message` tells what went wrong.

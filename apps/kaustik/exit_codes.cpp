@@ -8,7 +8,8 @@ const std::vector<ExitCode>& exit_codes() {
   static const std::vector<ExitCode> codes{
       {"0", "all was done"},
       {std::to_string(exit_system),
-       "the machine failed: disk full, not enough memory, or an output could not be written"},
+       "the machine failed: disk full, not enough memory, or an output could not be written; or a "
+       "test of kaustik test failed"},
       {std::to_string(exit_input),
        "something is wrong with the command line, the scene or another file"},
       {std::to_string(exit_ended_early),

@@ -5,8 +5,9 @@
 namespace kaustik::app {
 
 // What the program ends with.
-inline constexpr int exit_system = 1;  ///< the machine failed
-inline constexpr int exit_input = 2;   ///< something is wrong with what the user gave
+inline constexpr int exit_system = 1;       ///< the machine failed
+inline constexpr int exit_test_failed = 1;  ///< a test of `kaustik test`
+inline constexpr int exit_input = 2;        ///< something is wrong with what the user gave
 /// A signal came before all was done, or the end of its time before a part was.
 inline constexpr int exit_ended_early = 75;
 
@@ -21,5 +22,7 @@ std::string exit_code_text();
 
 /// Thrown when all that can be written is written, but the command ended early.
 struct EndedEarly {};
+/// Thrown when all tests have run and are told, and some of them failed.
+struct TestsFailed {};
 
 }  // namespace kaustik::app

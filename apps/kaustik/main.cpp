@@ -55,7 +55,7 @@ void add_commands(CLI::App& program) {
     const char* name;
     std::vector<void (*)(CLI::App&)> commands;
   };
-  const Group groups[] = {{"Scenes", {add_example, add_info, add_convert}},
+  const Group groups[] = {{"Scenes", {add_example, add_info, add_convert, add_test}},
                           {"Render", {add_render, add_view, add_resume, add_photons, add_learn}},
                           {"Pictures", {add_tonemap, add_compare, add_denoise}},
                           {"Parts", {add_merge, add_stitch}},
@@ -106,6 +106,8 @@ int told(std::string& message) {
     throw;
   } catch (const EndedEarly&) {
     return exit_ended_early;
+  } catch (const TestsFailed&) {
+    return exit_test_failed;
   } catch (const ReaderGone&) {
     events().end(128 + SIGPIPE, "nobody reads standard output");
     end_by_broken_pipe();

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
+
+#include "kaustik/loader/scene_format.h"
 
 namespace kaustik::app {
 namespace {
@@ -50,7 +53,17 @@ OptionValues values_of(const CLI::Option* option) {
 }
 
 const std::vector<std::string>& scene_extensions() {
-  static const std::vector<std::string> extensions{"xml", "xml.gz"};
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> all;
+    for (const SceneFormat& format : scene_formats())
+      for (const std::string_view extension : format.extensions)
+        for (const char* const packing : {"", ".gz"}) {
+          const std::string name = std::string(extension.substr(1)) + packing;
+          // Two formats may share one.
+          if (std::ranges::find(all, name) == all.end()) all.push_back(name);
+        }
+    return all;
+  }();
   return extensions;
 }
 

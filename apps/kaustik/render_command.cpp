@@ -181,7 +181,9 @@ void add_render(CLI::App& program) {
       "A second signal ends the program at once. In the first pass it writes a picture of fewer "
       "samples, or nothing if a pixel has no sample yet. SIGUSR1 writes the picture as it is, and "
       "the render goes on. A part that --time ends before its last pass exits with 75, too.\n"
-      "Each line of JSON has an \"event\": start, progress, written, message or end. With "
+      "A meter's value goes to standard error, in lx or cd/m², with its 95 % interval.\n"
+      "Each line of JSON has an \"event\": start, progress, measured, written, message or end. "
+      "With "
       "--progress json the lines go to standard error, with all messages. With --progress-file "
       "they go elsewhere, and messages stay text.\n"
       "Environment variables photonMap.… set integrator photonmap as in Schregle's thesis: kaustik "
@@ -214,7 +216,9 @@ void add_render(CLI::App& program) {
       ->check(whole_number(1, 1 << 30));
   command
       ->add_option("--spp", options->spp,
-                   "Samples per pixel over all passes (more samples make more passes)")
+                   "Samples per pixel over all passes; more of them make more passes [without "
+                   "--passes, --time and --error the sampler's sample_count in the scene, else 16 "
+                   "passes of the method's usual number]")
       ->check(whole_number(1, 1 << 30));
   auto* error =
       takes(command->add_option("--error", options->error,

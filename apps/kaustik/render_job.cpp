@@ -11,8 +11,10 @@
 #include "events.h"
 #include "exit_codes.h"
 #include "failures.h"
+#include "kaustik/render/measurements.h"
 #include "kaustik/render/part_picture.h"
 #include "kaustik/scene/scene.h"
+#include "meter_values.h"
 #include "picture_output.h"
 #include "picture_watch.h"
 #include "scene_search.h"
@@ -43,7 +45,10 @@ void tell_of_part(const StopPlan& plan, const Film& film) {
 void tell_of_result(const JobResult& result, const Job& job, bool quiet) {
   const SessionReport& report = result.report;
   if (!quiet) tell_of_part(result.record.plan, job.film());
-  if (!quiet && report.passes > 0) print_errors(job.film());
+  if (report.passes > 0 && is_meter(job.scene()))
+    tell_measurements(job.scene(), job.film(), quiet);
+  else if (report.passes > 0 && !quiet)
+    print_errors(job.film());
   for (const std::string& decision : report.decisions)
     if (!quiet) note(decision);
   for (const std::string& warning : report.warnings) warn(warning);

@@ -2,29 +2,44 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-#include <filesystem>
-
+#include "file_names.h"
 #include "kaustik/base/error.h"
 #include "kaustik/integrator/registry.h"
+#include "kaustik/loader/scene_format.h"
 #include "numbers.h"
 #include "option_values.h"
 #include "program_files.h"
 
 namespace kaustik::app {
+namespace {
+
+/// "Mitsuba XML, …".
+std::string format_names() {
+  std::string names;
+  for (const SceneFormat& format : scene_formats())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+  return names;
+}
+
+}  // namespace
 
 void add_scene(CLI::App& command, std::string& scene) {
   CLI::Option* option = command.add_option(
       "scene", scene,
-      "Scene file (Mitsuba XML), or scenes/… of the installation; - for standard input");
+      fmt::format("Scene file ({}), or scenes/… of the installation; - for standard input",
+                  format_names()));
   takes_files(option->required(), scene_extensions());
-  option->transform([](const std::string& path) { return scene_file(path); });
+  option->transform([](const std::string& path) {
+    if (path.empty())
+      throw Error(ErrorKind::input, "the name of the scene is empty",
+                  "name a scene file; to start with there is: kaustik example");
+    return scene_file(path);
+  });
 }
 
 void check_scene_name(const std::string& output) {
-  std::string suffix = std::filesystem::path(output).extension().string();
-  for (char& c : suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (suffix.empty() || suffix == ".xml") return;
+  const std::string extension = extension_of(output);
+  if (extension.empty() || extension == "xml") return;
   throw Error(ErrorKind::input, fmt::format("'{}' is not the name of an XML file", output),
               "scenes are written as Mitsuba 3's XML: let the name end in .xml");
 }
@@ -42,13 +57,17 @@ void add_definitions(CLI::App& command, std::vector<std::string>& definitions) {
 }
 
 void add_camera(CLI::App& command, std::string& camera) {
-  command.add_option("--camera", camera, "Id of the camera to use [the first]")->type_name("ID");
+  command
+      .add_option("--camera", camera,
+                  "Id of the camera to use [the first; of scenes before Mitsuba 2 the last]")
+      ->type_name("ID");
 }
 
 void add_strict(CLI::App& command, bool& is_strict) {
   command.add_flag(
       "--strict", is_strict,
-      "Refuse unknown parameters and elements, instead of ignoring them with a warning");
+      "Refuse unknown parameters and elements, instead of ignoring them with a warning; what is "
+      "known and has no effect stays a warning");
 }
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings,

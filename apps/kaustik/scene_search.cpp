@@ -4,15 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <system_error>
 #include <vector>
 
 #include "examples.h"
+#include "file_names.h"
 #include "kaustik/base/error.h"
 #include "kaustik/loader/scene_format.h"
-#include "option_values.h"
+#include "picture_info.h"
 #include "program_files.h"
 
 namespace kaustik::app {
@@ -132,12 +132,6 @@ std::string remedy_for_other_file(const std::string& path) {
          fmt::format("scenes are read from {}, also packed by gzip", formats);
 }
 
-std::string extension_of(const std::string& file) {
-  std::string extension = fs::path(file).extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return extension.empty() ? extension : extension.substr(1);
-}
-
 }  // namespace
 
 void check_scene_file(const std::string& path) {
@@ -158,14 +152,12 @@ void check_scene_file(const std::string& path) {
 
 std::string command_line_for(const std::string& file) {
   const std::string extension = extension_of(file);
-  const std::vector<std::string>& pictures = picture_extensions();
   if (has_scene_name(file) || file == "-") return "kaustik render " + file;
   if (extension == "kpt") return "kaustik resume " + file;
   if (extension == "kpm")
     return "kaustik render SCENE.xml --integrator photonmap --set integrator.photon_map=" + file;
   if (extension == "kln") return "kaustik render SCENE.xml --learned " + file;
-  if (std::find(pictures.begin(), pictures.end(), extension) != pictures.end())
-    return fmt::format("kaustik tonemap {} -o PICTURE.png", file);
+  if (is_picture_name(file)) return fmt::format("kaustik tonemap {} -o PICTURE.png", file);
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include "benchmarks/comparisons/error_ratio.h"
 #include "benchmarks/comparisons/result_lines.h"
@@ -42,7 +43,7 @@ std::optional<ErrorRatio> ratio_without_noise(const PeerResult& r) {
 
 Verdict verdict_of(const PeerResult& r, double bar) {
   const std::optional<ErrorRatio> ratio = ratio_without_noise(r);
-  return ratio ? at_least(*ratio, bar) : Verdict::unknown;
+  return ratio && r.has_our_mean() ? at_least(*ratio, bar) : Verdict::unknown;
 }
 
 std::string bar_of(const PeerResult& r) {
@@ -53,6 +54,8 @@ std::string bar_of(const PeerResult& r) {
 }
 
 }  // namespace
+
+bool PeerResult::has_our_mean() const { return std::abs(mean_ratio - 1) <= mean_tolerance; }
 
 std::string PeerResult::to_json_line() const {
   const nlohmann::ordered_json line{{"name", line_name},
@@ -107,7 +110,7 @@ std::string peer_result_table(const std::vector<PeerResult>& results) {
 }
 
 bool all_bars_kept(const std::vector<PeerResult>& results) {
-  return std::all_of(results.begin(), results.end(), [](const PeerResult& r) {
+  return !results.empty() && std::all_of(results.begin(), results.end(), [](const PeerResult& r) {
     return !(r.bar > 0) || verdict_of(r, r.bar) == Verdict::kept;
   });
 }

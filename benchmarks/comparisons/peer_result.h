@@ -5,6 +5,10 @@
 
 namespace kaustik::bench {
 
+/// The mean of a picture that has a bar may differ from ours by this fraction. Otherwise it may not
+/// be the same scene, and its bar cannot be told.
+inline constexpr double mean_tolerance = 0.02;
+
 /// A scene as another renderer and ours made it in the same time: one line of a results file of
 /// bench_peers.
 struct PeerResult {
@@ -24,6 +28,8 @@ struct PeerResult {
   uint64_t seed = 0;
   std::string program;  ///< checksum of the program that measured
 
+  /// Whether the means of both pictures agree within mean_tolerance.
+  bool has_our_mean() const;
   std::string to_json_line() const;
 };
 
@@ -34,7 +40,7 @@ std::vector<PeerResult> read_peer_results(const std::string& path);
 /// Beside each peer the errors, their ratio and what becomes of its bar, in Markdown.
 std::string peer_result_table(const std::vector<PeerResult>& results);
 
-/// Whether all bars are kept.
+/// Whether there are results, and all bars are kept.
 bool all_bars_kept(const std::vector<PeerResult>& results);
 
 }  // namespace kaustik::bench

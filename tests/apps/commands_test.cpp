@@ -179,9 +179,76 @@ TEST_F(Commands, InfoWarnsOfWhatCannotWork) {
           "<lookat origin=\"0,0,5\" target=\"0,0,9\" up=\"0,1,0\"/></transform></sensor>",
           false},
          "the camera sees no shape");
+  // Fog alone can be seen, though no surface is met.
+  write("fog.xml", scene_with({"<shape type=\"cube\"><bsdf type=\"null\"/><medium "
+                               "name=\"interior\" type=\"homogeneous\"/></shape>",
+                               true, false}));
+  EXPECT_FALSE(contains(run_well({"info", "fog.xml"}).out, "sees no shape"));
   warned(
       {"<sensor type=\"perspective\"><integer name=\"shutter_open\" value=\"3\"/></sensor>", false},
       "without effect here: 'shutter_open' of sensor 'perspective'");
+}
+
+TEST_F(Commands, InfoTellsHowTheSceneIsRendered) {
+  const std::string own = run_well({"info", "scene.xml"}).out;
+  EXPECT_TRUE(contains(own, "integrator path\n")) << own;
+  EXPECT_TRUE(contains(own, "sampler    Sobol points, scrambled after Owen")) << own;
+  write("bare.xml", scene_with({}));
+  const std::string bare = run_well({"info", "bare.xml"}).out;
+  EXPECT_TRUE(contains(bare, "integrator auto, since the scene names none\n")) << bare;
+  EXPECT_TRUE(contains(bare, "samples    4 per pixel in each of 16 passes")) << bare;
+  write("old.xml", R"(<scene version="0.6.0">
+<integrator type="photonmapper">
+<integer name="lookupSize" value="60"/>
+<integer name="granularity" value="200"/>
+</integrator>
+<sensor type="perspective"><transform name="toWorld"><lookAt origin="0, 0, 4" target="0, 0, 0"
+up="0, 1, 0"/></transform><sampler type="halton"><integer name="sampleCount" value="8"/></sampler>
+<film type="hdrfilm"><string name="fileFormat" value="openexr"/></film></sensor>
+<shape type="sphere"/><emitter type="point"><point name="position" x="0" y="9" z="9"/></emitter>
+</scene>)");
+  const std::string old = run_well({"info", "old.xml"}).out;
+  EXPECT_TRUE(contains(old, "integrator photonmap, for the scene's photonmapper\n")) << old;
+  EXPECT_TRUE(contains(old, "samples    8 per pixel, as the scene says\n")) << old;
+  EXPECT_TRUE(contains(old, "scrambled after Owen, for the scene's halton\n")) << old;
+  EXPECT_TRUE(contains(old, "picture    768 × 576 pixels\n")) << old;
+  EXPECT_TRUE(contains(old, "without effect here: 'fileFormat' of film 'hdrfilm' (old.xml:8:22)\n"))
+      << old;
+  EXPECT_TRUE(contains(
+      old, "without effect here: 'granularity' of integrator 'photonmapper' (old.xml:4:1)\n"))
+      << old;
+  // What another method has no use for is called as in the file, too.
+  const RunResult other =
+      run_well({"render", "old.xml", "--integrator", "path", "--spp", "1", "--set", "film.width=4",
+                "--set", "film.height=4", "-o", "old.pfm"});
+  EXPECT_TRUE(contains(other.err, "of its 'photonmapper': lookupSize\n")) << other.err;
+}
+
+TEST_F(Commands, InfoTellsWhatAPictureHolds) {
+  run_well(
+      {"render", "scene.xml", "-D", "size=6", "--spp", "2", "-q", "-o", "a.exr", "-o", "a.png"});
+  const std::string exr = run_well({"info", "a.exr"}).out;
+  EXPECT_TRUE(contains(exr, "picture    6 × 6 pixels\n")) << exr;
+  EXPECT_TRUE(contains(exr, "layer      R, G, B\n")) << exr;
+  EXPECT_TRUE(contains(exr, "layer      direct: R, G, B\n")) << exr;
+  EXPECT_TRUE(contains(exr, "metadata   integrator: path\n")) << exr;
+  EXPECT_TRUE(contains(run_well({"info", "a.png"}).out, "picture    6 × 6 pixels\n"));
+  write("none.exr", "?");
+  EXPECT_EQ(run({"info", "none.exr"}).exit_code, 2);
+}
+
+TEST_F(Commands, NoIntegratorIsAnotherNameOfItself) {
+  for (const ForeignIntegrator& foreign : foreign_integrators()) {
+    const std::string& sentence = foreign.info.sentence;
+    const size_t also = sentence.find("Also: ");
+    const std::string list = also == std::string::npos ? "" : ", " + sentence.substr(also + 6);
+    EXPECT_FALSE(contains(list, ", " + foreign.native + ",") ||
+                 contains(list, ", " + foreign.native + "."))
+        << sentence;
+    if (foreign.info.name == foreign.native) {
+      EXPECT_FALSE(contains(sentence, "Another renderer's name")) << sentence;
+    }
+  }
 }
 
 TEST_F(Commands, InfoWarnsOfACameraInAWall) {

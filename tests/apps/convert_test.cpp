@@ -166,5 +166,48 @@ TEST_F(Convert, FieldsAndPicturesAreFiles) {
   EXPECT_LT(difference("old.xml", "new.xml"), 1e-5);
 }
 
+/// What pbrt keeps in its text, or means in another way than Mitsuba.
+TEST_F(Convert, GridsAndMeshesOfPbrtAreFiles) {
+  write("pic.ppm", "P3\n2 1\n255\n255 0 9 30 200 5\n");
+  write("old.pbrt", R"(LookAt 0 1 4 0 .5 0 0 1 0
+    Camera "perspective" "float fov" 40
+    Film "rgb" "integer xresolution" 12 "integer yresolution" 12
+    WorldBegin
+    LightSource "point" "rgb I" [9 9 9] "point3 from" [1 3 3]
+    MakeNamedMedium "ball" "string type" "uniformgrid" "integer nx" 2 "float density" [1 3]
+      "rgb sigma_a" [1 2 3] "rgb sigma_s" [3 2 1] "point3 p0" [-.5 0 -.5] "point3 p1" [.5 1 .5]
+    MakeNamedMaterial "ball" "string type" "diffuse"
+    Texture "t" "float" "imagemap" "string filename" "pic.ppm" "bool invert" true
+    AttributeBegin
+      Material "interface" MediumInterface "ball" ""
+      Translate 0 .5 0 Shape "sphere" "float radius" .5
+    AttributeEnd
+    NamedMaterial "ball"
+    Shape "trianglemesh" "point3 P" [-2 0 -2 2 0 -2 2 3 -2] "normal N" [0 0 -1 0 0 -1 0 0 -1]
+      "point2 uv" [0 0 1 0 1 1] "texture alpha" "t"
+    AreaLightSource "diffuse"
+    Shape "trianglemesh" "point3 P" [-2 2 -1 2 2 -1 0 2 1] "normal N" [0 1 0 0 1 0 0 1 0])");
+  run_well({"convert", "old.pbrt", "-o", "new.xml"});
+  const std::vector<std::string> written = files();
+  for (const char* name : {"new_gridvolume.vol", "new_mesh.ply", "new_mesh_2.ply", "new_pic.exr"})
+    EXPECT_TRUE(std::ranges::find(written, name) != written.end()) << name;
+  EXPECT_LT(difference("old.pbrt", "new.xml"), 1e-5);
+}
+
+/// Buffers that are no meshes: light from around, and a volume of samples.
+TEST_F(Convert, SkiesAndPatternsOfRadianceAreFiles) {
+  write("old.rad",
+        "!gensky 6 21 14 +s\nskyfunc glow sky_glow 0 0 4 1 1 1 0\n"
+        "sky_glow source sky 0 0 4 0 0 1 180\nvoid brightfunc ramp 2 Px/4+.5 . 0 0\n"
+        "ramp plastic paint 0 0 5 .8 .5 .3 0 0\npaint ring floor 0 0 8 0 0 0 0 0 1 0 2\n"
+        "paint sphere ball 0 0 4 0 0 .5 .5\n");
+  write("old.rif", "scene= old.rad\nRESOLUTION= 12\nview= v -vp 0 -4 2 -vd 0 4 -2 -vh 50 -vv 50\n");
+  const RunResult converted = run_well({"convert", "old.rif", "-o", "new.xml"});
+  const std::vector<std::string> written = files();
+  for (const char* name : {"new_bitmap.exr", "new_gridvolume.vol"})
+    EXPECT_TRUE(std::ranges::find(written, name) != written.end()) << name << converted.err;
+  EXPECT_LT(difference("old.rif", "new.xml"), 1e-6);
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -148,7 +148,8 @@ TEST_F(Manual, CompletionsOfOtherShellsHaveEveryOption) {
           << command << " " << option;
     }
   EXPECT_TRUE(contains(zsh, ":checkpoint:_files -g \"*.kpt\"'")) << zsh;
-  EXPECT_TRUE(contains(zsh, ":scene:_files -g \"*.(xml|xml.gz)\"'")) << zsh;
+  EXPECT_TRUE(contains(zsh, ":scene:_files -g \"*.(xml|xml.gz|pbrt|pbrt.gz|gltf|")) << zsh;
+  EXPECT_TRUE(contains(zsh, "|rad|rad.gz|rif|rif.gz|vf|vf.gz|oct|oct.gz)\"'")) << zsh;
   write("completions.zsh", zsh);
   write("completions.fish", fish);
   if (is_installed("zsh")) {

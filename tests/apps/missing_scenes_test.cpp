@@ -7,9 +7,10 @@ namespace {
 
 class MissingScenes : public ProgramTest {
  protected:
-  void expect_refused(const std::string& scene, const std::vector<std::string>& parts) const {
+  void expect_refused(const std::string& scene, const std::vector<std::string>& parts,
+                      const std::string& command = "info") const {
     SCOPED_TRACE(scene);
-    const RunResult result = run({"info", scene});
+    const RunResult result = run({command, scene});
     EXPECT_EQ(result.exit_code, 2);
     for (const std::string& part : parts) EXPECT_TRUE(contains(result.err, part)) << result.err;
   }
@@ -41,6 +42,11 @@ TEST_F(MissingScenes, AreLookedForNearby) {
   }
 }
 
+TEST_F(MissingScenes, AnEmptyNameIsNone) {
+  for (const char* command : {"info", "render", "view"})
+    expect_refused("", {"the name of the scene is empty", "kaustik example"}, command);
+}
+
 TEST_F(MissingScenes, FoldersAreListed) {
   std::filesystem::create_directory(path("empty"));
   expect_refused("empty", {"it is a folder", "no scene in it", "kaustik example"});
@@ -54,8 +60,8 @@ TEST_F(MissingScenes, FoldersAreListed) {
 TEST_F(MissingScenes, OtherFilesAreToldWhatTheyAreFor) {
   for (const char* name : {"a.exr", "a.PNG", "a.kpt", "a.kpm", "a.kln", "a.blend"})
     write(name, "?");
-  expect_refused("a.exr", {"kaustik tonemap a.exr -o PICTURE.png", "Mitsuba XML (.xml)"});
-  expect_refused("a.PNG", {"kaustik tonemap a.PNG"});
+  expect_refused("a.exr", {"kaustik tonemap a.exr -o PICTURE.png", "Mitsuba XML (.xml)"}, "view");
+  expect_refused("a.PNG", {"kaustik tonemap a.PNG"}, "view");
   expect_refused("a.kpt", {"kaustik resume a.kpt"});
   expect_refused("a.kpm", {"integrator.photon_map=a.kpm"});
   expect_refused("a.kln", {"--learned a.kln"});

@@ -147,5 +147,19 @@ TEST(chi_square_of_counts, rejects_hits_where_none_can_be) {
   EXPECT_EQ(chi_square_p_value(none, expected), 1);
 }
 
+TEST(StudentT, TellsMeansApart) {
+  RunningStatistics values;
+  for (const double value : {0.0, 1.0, 2.0}) values.add(value);
+  // t = 1/(1/√3) with 2 degrees of freedom: p = 1 − t/√(t² + 2) = 1 − √(3/5).
+  EXPECT_NEAR(t_test_p_value(values, 2), 1 - std::sqrt(0.6), 1e-12);
+  EXPECT_EQ(t_test_p_value(values, 1), 1);
+  // A larger error: t = 1.
+  EXPECT_NEAR(t_test_p_value(values, 2, 1), 1 - std::sqrt(1.0 / 3), 1e-12);
+  RunningStatistics constant;
+  for (int i = 0; i < 3; ++i) constant.add(1);
+  EXPECT_EQ(t_test_p_value(constant, 1.1), 0);
+  EXPECT_GT(t_test_p_value(constant, 1.1, 0.1), 0.4);
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/polygon_cutter.h"
 #include "kaustik/base/srgb.h"
-#include "kaustik/geometry/polygon_cutter.h"
 #include "mesh_file_support.h"
 
 namespace kaustik::test {

@@ -1,6 +1,6 @@
 // Polygons cut into triangles: exactly what lies within is covered, once.
 
-#include "kaustik/geometry/polygon_cutter.h"
+#include "kaustik/base/polygon_cutter.h"
 
 #include <ctime>
 #include <numbers>

@@ -116,9 +116,10 @@ TEST(ForeignIntegrators, KeepWhatHasAMeaning) {
   EXPECT_EQ(object.type, "auto");
   ASSERT_EQ(object.properties.size(), 1u);
   EXPECT_EQ(object.properties[0].value, Value(int64_t{7}));
-  EXPECT_EQ(notes, (std::vector<std::string>{
-                       "'luminance_samples' of integrator 'pssmlt' has no effect here",
-                       "there is no integrator 'pssmlt' here: auto renders the picture"}));
+  EXPECT_EQ(notes,
+            (std::vector<std::string>{
+                "without effect here: 'luminance_samples' of integrator 'pssmlt' (test:1:87)",
+                "there is no integrator 'pssmlt' here: auto renders the picture"}));
   // What is said in our words wins.
   const Object both =
       native_integrator(described("sppm", set("initial_radius", 2.0) + set("radius", 3.0)), notes);

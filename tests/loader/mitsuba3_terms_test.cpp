@@ -72,12 +72,18 @@ TEST(Mitsuba3Terms, FilmsSamplersAndIntegrators) {
   EXPECT_EQ(integrator.type, "path");
   EXPECT_EQ(value<int64_t>(integrator, "max_depth"), 5);
   EXPECT_FALSE(has_property(integrator, "bidirectional"));
+  EXPECT_TRUE(tells(scene, "integrator 'mlt' becomes 'path', which misses caustics"));
   EXPECT_TRUE(tells(scene, "film 'ldrfilm' becomes 'hdrfilm'"));
   EXPECT_TRUE(tells(scene, "'banner' of film 'hdrfilm' is left out"));
   EXPECT_TRUE(tells(scene, "test.xml:2:1"));
   const Mitsuba3Scene foggy =
       translated("<integrator type='bdpt'/><medium type='homogeneous' id='fog'/>");
   EXPECT_EQ(first_of(foggy).type, "volpath");
+  // There it needs them, though they have no effect here.
+  const Mitsuba3Scene layers = translated(
+      "<integrator type='aov'><string name='aovs' value='z:depth'/><integrator type='path'/>"
+      "</integrator>");
+  EXPECT_EQ(value<std::string>(first_of(layers), "aovs"), "z:depth");
 }
 
 /// Share of light that the nested grey bsdfs reflect in all.

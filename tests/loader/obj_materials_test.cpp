@@ -39,7 +39,7 @@ class ObjMaterials : public testing::Test {
   TemporaryFolder folder_;
 };
 
-const Object* bsdf_of(const Object& shape) {
+const Object* bsdf_under(const Object& shape) {
   for (const Child& child : shape.children)
     if (child.object->family == "bsdf") return child.object.get();
   return nullptr;
@@ -54,13 +54,13 @@ TEST_F(ObjMaterials, MakeAShapeOfEach) {
   EXPECT_EQ(value<std::string>(wall, "material"), "RedWall");
   EXPECT_EQ(glass.id, "o");
   EXPECT_EQ(wall.id, "o:RedWall");
-  ASSERT_TRUE(bsdf_of(wall) && bsdf_of(glass));
-  EXPECT_EQ(bsdf_of(wall)->type, "diffuse");
-  EXPECT_EQ(value<Rgb>(*bsdf_of(wall), "reflectance"), (Rgb{0.8, 0.1, 0.2}));
-  EXPECT_EQ(bsdf_of(wall)->place.line, 2);
-  EXPECT_EQ(bsdf_of(glass)->type, "dielectric");
-  EXPECT_EQ(value<double>(*bsdf_of(glass), "int_ior"), 1.33);
-  EXPECT_EQ(value<Rgb>(*bsdf_of(glass), "specular_transmittance"), (Rgb{0.5, 1, 1}));
+  ASSERT_TRUE(bsdf_under(wall) && bsdf_under(glass));
+  EXPECT_EQ(bsdf_under(wall)->type, "diffuse");
+  EXPECT_EQ(value<Rgb>(*bsdf_under(wall), "reflectance"), (Rgb{0.8, 0.1, 0.2}));
+  EXPECT_EQ(bsdf_under(wall)->place.line, 2);
+  EXPECT_EQ(bsdf_under(glass)->type, "dielectric");
+  EXPECT_EQ(value<double>(*bsdf_under(glass), "int_ior"), 1.33);
+  EXPECT_EQ(value<Rgb>(*bsdf_under(glass), "specular_transmittance"), (Rgb{0.5, 1, 1}));
   // The lamp shines from both.
   for (const Object* shape : {&glass, &wall}) EXPECT_EQ(shape->children.size(), 2u);
   EXPECT_TRUE(description.warnings.empty());
@@ -80,7 +80,7 @@ TEST_F(ObjMaterials, AreLeftAloneByOthers) {
     ASSERT_EQ(description.scene->children.size(), 1u) << inside << version;
     const Object& shape = *description.scene->children[0].object;
     EXPECT_EQ(shape.properties.size(), 1u) << inside << version;
-    EXPECT_EQ(bsdf_of(shape) != nullptr, inside == own);
+    EXPECT_EQ(bsdf_under(shape) != nullptr, inside == own);
   }
 }
 
@@ -89,16 +89,16 @@ TEST_F(ObjMaterials, AreReplacedByName) {
   const std::string plastic = "<bsdf type=\"plastic\" name=\"RedWall\"/>";
   const Description replaced = load(plastic);
   ASSERT_EQ(replaced.scene->children.size(), 2u);
-  EXPECT_EQ(bsdf_of(*replaced.scene->children[0].object)->type, "dielectric");
-  EXPECT_EQ(bsdf_of(*replaced.scene->children[1].object)->type, "plastic");
+  EXPECT_EQ(bsdf_under(*replaced.scene->children[0].object)->type, "dielectric");
+  EXPECT_EQ(bsdf_under(*replaced.scene->children[1].object)->type, "plastic");
   const Description with_other = load(plastic + "<bsdf type=\"diffuse\"/>");
   ASSERT_EQ(with_other.scene->children.size(), 2u);
-  EXPECT_EQ(bsdf_of(*with_other.scene->children[0].object)->type, "diffuse");
-  EXPECT_EQ(bsdf_of(*with_other.scene->children[1].object)->type, "plastic");
+  EXPECT_EQ(bsdf_under(*with_other.scene->children[0].object)->type, "diffuse");
+  EXPECT_EQ(bsdf_under(*with_other.scene->children[1].object)->type, "plastic");
   // Any other name means the whole shape.
   const Description named = load("<bsdf type=\"plastic\" name=\"bsdf\"/>");
   ASSERT_EQ(named.scene->children.size(), 1u);
-  EXPECT_EQ(bsdf_of(*named.scene->children[0].object)->type, "plastic");
+  EXPECT_EQ(bsdf_under(*named.scene->children[0].object)->type, "plastic");
 }
 
 TEST_F(ObjMaterials, ThatAreMissingAreTold) {
@@ -124,7 +124,7 @@ TEST_F(ObjMaterials, AreFoundByNamesOfOtherComputers) {
   folder_.write("wood.PNG", "");
   const Description description = load("");
   ASSERT_EQ(description.scene->children.size(), 1u);
-  const Object* bsdf = bsdf_of(*description.scene->children[0].object);
+  const Object* bsdf = bsdf_under(*description.scene->children[0].object);
   ASSERT_TRUE(bsdf);
   ASSERT_EQ(bsdf->children.size(), 1u);
   EXPECT_EQ(value<std::string>(*bsdf->children[0].object, "filename"), folder_ / "wood.PNG");
@@ -143,7 +143,7 @@ TEST_F(ObjMaterials, AreLookedForBesideTheScene) {
   folder_.write("mtl/a.mtl", "newmtl a\nKd 1 0 0\n");
   const Description description = load("<emitter type=\"area\"/>", "0.6.0", false, "mtl");
   EXPECT_TRUE(description.warnings.empty());
-  ASSERT_TRUE(bsdf_of(*description.scene->children[0].object));
+  ASSERT_TRUE(bsdf_under(*description.scene->children[0].object));
 }
 
 /// Only the file of just that name, if there is one.
@@ -243,7 +243,7 @@ TEST_F(ObjMaterials, OfOneShapeOfTheFile) {
   for (int i = 0; i < 4; ++i) {
     const auto shapes = parts(i);
     ASSERT_EQ(shapes.size(), 1u);
-    EXPECT_EQ(bsdf_of(*shapes[0].object)->type, types[i]) << i;
+    EXPECT_EQ(bsdf_under(*shapes[0].object)->type, types[i]) << i;
     EXPECT_THROW(property(*shapes[0].object, "material"), std::runtime_error);
   }
 }

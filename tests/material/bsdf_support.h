@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kaustik/material/bsdf.h"
+#include "kaustik/material/direction_grid.h"
 
 namespace kaustik::test {
 
@@ -65,21 +66,6 @@ const std::vector<Vec3f>& outgoing_directions();
 
 /// The sets of lobes that this one can be asked for: each of its own and all.
 std::vector<Lobes> lobe_sets(const Bsdf& bsdf);
-
-/// Cells over the sphere of directions, narrow about the mirror direction of wo, where lobes are;
-/// none reaches over the horizon.
-class DirectionGrid {
- public:
-  explicit DirectionGrid(const Vec3f& wo);
-  size_t size() const { return (thetas_.size() - 1) * (phis_.size() - 1); }
-  size_t cell_of(const Vec3f& w) const;
-  /// Integral of f(direction) per solid angle over a cell, adaptive, good to about 1e-5.
-  Vec3d integrate(size_t cell, const std::function<Vec3d(const Vec3f&)>& f) const;
-
- private:
-  std::vector<double> thetas_, phis_;  ///< borders; phi relative to the mirror direction
-  double mirror_phi_;
-};
 
 /// How much is drawn, and which error so many samples still find: their number goes with its
 /// inverse square.

@@ -8,6 +8,7 @@
 #include "kaustik/base/statistics.h"
 #include "kaustik/material/cloth_fuzz.h"
 #include "kaustik/material/fresnel.h"
+#include "kaustik/material/relief.h"
 #include "tests/material/bsdf_support.h"
 
 namespace kaustik {
@@ -133,12 +134,57 @@ TEST(mixturebsdf, lets_light_pass_null) {
                   {make_bsdf("blendbsdf", {property("weight", 0.5)}, {white, nothing})})}) {
     EXPECT_TRUE(mixed->traits().transmits);
     EXPECT_NEAR(mixed->albedo(radiance(), wo, Lobes::diffuse)[0], 0.25, 1e-6);
-    EXPECT_NEAR(mixed->albedo(radiance(), wo, Lobes::delta)[0], 0.75, 1e-6);
-    const BsdfSample straight = mixed->sample(radiance(), wo, 0.1f, {0.5f, 0.5f}, Lobes::all);
-    ASSERT_EQ(straight.event, Lobes::delta);
-    EXPECT_TRUE(straight.wi.equalWithAbsError(-wo, 1e-6f));
-    EXPECT_NEAR(straight.weight[0], 1, 1e-6);
+    EXPECT_TRUE(mixed->traits().passes_straight);
+    EXPECT_NEAR(mixed->straight(radiance(), wo)[0], 0.75, 1e-6);
+    EXPECT_EQ(mixed->albedo(radiance(), wo, Lobes::delta)[0], 0);
+    const BsdfSample sample = mixed->sample(radiance(), wo, 0.1f, {0.5f, 0.5f}, Lobes::all);
+    ASSERT_EQ(sample.event, Lobes::diffuse);
+    EXPECT_NEAR(sample.weight[0], 0.25, 1e-6);
   }
+}
+
+// With a cutoff a surface is there or not.
+TEST(mask, cuts_by_opacity) {
+  const auto white = make_bsdf("diffuse", {property("reflectance", 1.0)});
+  const auto ramp =
+      make_texture("checkerboard", {property("color0", 0.4), property("color1", 0.2)});
+  const auto at = [](float u) {
+    TextureCoordinates where;
+    where.uv = {u, 0.25f};
+    return BsdfContext(where, TransportMode::radiance, {});
+  };
+  const auto holes = [&](double cutoff) {
+    return make_bsdf("mask", {property("cutoff", cutoff)}, {white}, {{"opacity", ramp}});
+  };
+  for (const float u : {0.25f, 0.75f}) {
+    const bool is_bright = ramp->scalar(at(u).texture()) > 0.3f;
+    EXPECT_EQ(holes(0.3)->albedo(at(u), {0, 0, 1}, Lobes::diffuse)[0], is_bright ? 1 : 0);
+    EXPECT_EQ(holes(0.3)->straight(at(u), {0, 0, 1})[0], is_bright ? 0 : 1);
+    EXPECT_EQ(holes(0.1)->albedo(at(u), {0, 0, 1}, Lobes::diffuse)[0], 1);
+  }
+}
+
+// ---- relief ----
+
+TEST(normalmap, leans_as_strongly_as_it_is_told) {
+  const auto lean = make_constant_texture(SpectralValue::reflectance(Rgb{0.75, 0.75, 1}));
+  const auto matt = make_bsdf("diffuse");
+  ReliefPoint point;
+  point.normal = {0, 0, 1};
+  point.dpdu = {2, 0, 0};
+  point.dpdv = {0, -1, 0};  // the picture is not mirrored
+  const auto normal = [&](std::vector<Property> properties) {
+    return make_bsdf("normalmap", properties, {matt}, {{"normalmap", lean}})
+        ->relief(true)
+        ->normal(point);
+  };
+  const auto near = [](const Vec3f& a, const Vec3f& b) { return length(a - normalize(b)) < 1e-6f; };
+  EXPECT_TRUE(near(normal({}), {0.5f, 0.5f, 1}));
+  EXPECT_TRUE(near(normal({property("strength", 0.5)}), {0.25f, 0.25f, 1}));
+  EXPECT_TRUE(near(normal({property("against_v", true)}), {0.5f, 0.5f, 1}));
+  point.dpdv = {0, 1, 0};
+  EXPECT_TRUE(near(normal({}), {0.5f, 0.5f, 1}));
+  EXPECT_TRUE(near(normal({property("against_v", true)}), {0.5f, -0.5f, 1}));
 }
 
 // ---- coats over anything ----
@@ -300,7 +346,7 @@ TEST(openpbr, a_sheet_of_glass_is_a_pane) {
 TEST(openpbr, its_opacity_makes_holes) {
   const auto half = open_pbr({property("geometry_opacity", 0.25)});
   EXPECT_TRUE(half->traits().transmits);
-  EXPECT_NEAR(half->albedo(radiance(), tilted(20), Lobes::delta)[0], 0.75, 1e-6);
+  EXPECT_NEAR(half->straight(radiance(), tilted(20))[0], 0.75, 1e-6);
 }
 
 TEST(cloth_fuzz, never_reflects_more_than_arrives_and_most_at_grazing_angles) {

@@ -11,7 +11,7 @@ using Kind = MicrofacetDistribution::Kind;
 
 /// Integral over all normals m of f(m).
 double over_normals(const std::function<double(const Vec3f&)>& f) {
-  const test::DirectionGrid grid(Vec3f(0, 0, 1));
+  const DirectionGrid grid(Vec3f(0, 0, 1));
   double sum = 0;
   for (size_t cell = 0; cell < grid.size(); ++cell)
     sum += grid.integrate(cell, [&](const Vec3f& m) { return Vec3d(f(m), 0, 0); }).x;

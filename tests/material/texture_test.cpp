@@ -157,6 +157,23 @@ TEST(scale, multiplies_what_it_holds) {
   EXPECT_THROW(make_texture("scale"), Error);
 }
 
+TEST(scale, multiplies_two_textures) {
+  const Picture picture({{1, 2, 3, 4}}), other({{4, 3, 2, 1}});
+  const auto nearest = property("filter_type", std::string("nearest"));
+  const auto a = bitmap(picture, {nearest}), b = bitmap(other, {nearest});
+  const auto product = make_texture("scale", {}, {{"value", a}, {"scale", b}});
+  for (const float u : {0.1f, 0.3f, 0.6f, 0.9f})
+    EXPECT_EQ(product->eval(point(u, 0.5f), {}),
+              a->eval(point(u, 0.5f), {}) * b->eval(point(u, 0.5f), {}));
+  EXPECT_EQ(product->maximum(), 16);
+  EXPECT_EQ(product->size(), 3);
+  // By the product rule.
+  const auto at = point(0.5f, 0.5f);
+  EXPECT_FLOAT_EQ(
+      product->height_gradient(at).uv.x,
+      a->height_gradient(at).uv.x * b->scalar(at) + b->height_gradient(at).uv.x * a->scalar(at));
+}
+
 TEST(mesh_attribute, asks_the_surface) {
   const auto texture = make_texture(
       "mesh_attribute", {property("name", std::string("vertex_color")), property("scale", 2.0)});

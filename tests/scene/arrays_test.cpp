@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "kaustik/base/file.h"
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/scene/description_digest.h"
@@ -77,6 +78,31 @@ TEST(Arrays, ABitmapIsThatOfTheSameFile) {
       for (size_t i = 0; i < of_file.size(); ++i)
         for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(of_file[i][lane], of_array[i][lane]);
     }
+}
+
+TEST(Arrays, ABitmapMayBeTheBytesOfAFile) {
+  const TemporaryFolder folder;
+  Image image(5, 3, {"R", "G", "B"});
+  for (size_t i = 0; i < image.pixel_count(); ++i)
+    for (int c = 0; c < 3; ++c) image.channel(c)[i] = float(i + size_t(c)) / 20;
+  const std::string png = folder.path("a.png");
+  write_shown_image(image, png);
+  const std::vector<uint8_t> bytes = read_file(png);
+  const auto seen = [&](const std::string& name, const Value& value, const std::string& channel) {
+    return albedos(
+        object("texture", "bitmap", {{name, value, {}}, {"channel", Value(channel), {}}}));
+  };
+  const Value encoded(Array::of<uint8_t>({bytes.size()}, bytes));
+  for (const char* channel : {"", "g"}) {
+    const auto of_file = seen("filename", Value(png), channel);
+    const auto of_bytes = seen("data", encoded, channel);
+    for (size_t i = 0; i < of_file.size(); ++i) EXPECT_EQ(of_file[i], of_bytes[i]);
+  }
+  // A picture without opacity is opaque.
+  for (const Spectrum& value : seen("data", encoded, "a")) EXPECT_EQ(value[0], 1);
+  std::vector<uint8_t> cut(bytes.begin(), bytes.begin() + 40);
+  const size_t size = cut.size();
+  EXPECT_THROW(seen("data", Value(Array::of<uint8_t>({size}, std::move(cut))), ""), Error);
 }
 
 TEST(Arrays, AnEnvironmentIsThatOfTheSameFile) {

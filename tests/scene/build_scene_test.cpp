@@ -503,13 +503,13 @@ TEST(BuildScene, CropWindowsMustLieInThePicture) {
 TEST(BuildScene, ParametersWithoutEffectAreReportedOnce) {
   const std::string odd = "<shape type=\"sphere\"/>";
   const auto scene = scene_of(
-      "<sensor type=\"perspective\"><float name=\"shutter_open\" value=\"0.1\"/>"
+      "<sensor type=\"perspective\"><float name=\"shutter_open\" value=\"0.1\"/>\n"
       "<float name=\"shutter_close\" value=\"9\"/></sensor>" +
       odd);
   ASSERT_EQ(scene->warnings().size(), 1u);
   EXPECT_EQ(scene->warnings()[0],
-            "without effect here: 'shutter_close' of sensor 'perspective', 'shutter_open' of "
-            "sensor 'perspective'");
+            "without effect here: 'shutter_close' of sensor 'perspective' (test.xml:3:1), "
+            "'shutter_open' of sensor 'perspective' (test.xml:2:28)");
 }
 
 /// `levels` bsdfs, a line each, every one made of the one before, twice if `twice`.

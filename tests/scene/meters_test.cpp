@@ -267,7 +267,8 @@ TEST(Cameras, ASpectralResponseIsTold) {
       "<sensor type=\"radiancemeter\"><spectrum name=\"srf\" value=\"400:1, 700:2\"/></sensor>" +
       std::string(any_shape));
   ASSERT_EQ(scene->warnings().size(), 1u);
-  EXPECT_EQ(scene->warnings()[0], "without effect here: 'srf' of sensor 'radiancemeter'");
+  EXPECT_EQ(scene->warnings()[0],
+            "without effect here: 'srf' of sensor 'radiancemeter' (test.xml:2:30)");
 }
 
 }  // namespace

@@ -97,6 +97,26 @@ TEST(Overrides, SceneWithoutIntegratorGetsTheDefault) {
   EXPECT_EQ(find_integrator(without)->properties.size(), 1u);
 }
 
+// A camera that has neither: the film of points takes its size from them, and says so.
+TEST(Overrides, CamerasWithoutFilmOrSamplerGetThem) {
+  Description without = description_of(std::string(any_camera) + any_shape);
+  override_property(without, "film.width=7");
+  override_property(without, "film.height=5");
+  override_property(without, "sampler.sample_count=3");
+  const auto scene = build_scene(without);
+  EXPECT_EQ(scene->film().size, Vec2i(7, 5));
+  EXPECT_EQ(scene->film().sample_count, 3);
+  Description points =
+      description_of("<sensor type=\"irradiancepoints\"/>" + std::string(any_shape));
+  override_property(points, "film.width=7");
+  const auto measured = build_scene(points);
+  EXPECT_EQ(measured->film().size, Vec2i(1, 1));
+  ASSERT_EQ(measured->warnings().size(), 1u);
+  EXPECT_EQ(measured->warnings()[0], "without effect here: 'width' of the film of such a sensor");
+  Description none = description_of(any_shape);
+  EXPECT_THROW(override_property(none, "film.width=7"), Error);
+}
+
 /// What is said of the scene's integrator leaves a shape alone that refers to it.
 TEST(Overrides, IntegratorsOfShapesStay) {
   Description description = description_of(

@@ -209,13 +209,6 @@ class Comparison {
   bool paired_ = false;
 };
 
-/// Of values that have the expected mean, two-sided.
-inline double t_test_p_value(const RunningStatistics& values, double expected) {
-  if (values.mean() == expected) return 1;
-  const double t = std::fabs(values.mean() - expected) / values.standard_error();
-  return 2 * student_t_cdf(-t, double(values.count() - 1));
-}
-
 /// Largest relative standard error of a comparison that is worth something.
 inline constexpr double sharp = 0.003;
 

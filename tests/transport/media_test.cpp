@@ -45,23 +45,22 @@ TEST(ShadowRays, PassNullBoundariesAndMedia) {
   outside.position = {0, 0, -5};
   uint64_t rays = 0;
   // After the inner ball the outer medium is unknown to the inner one: its exterior is vacuum.
-  const Spectrum to_point = transmittance_through_media(
-      *scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr, white, rays);
+  const Spectrum to_point =
+      transmittance_on_way(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr, white, rays);
   EXPECT_NEAR(to_point[0], std::exp(-0.5 - 4), 1e-6);
   EXPECT_NEAR(to_point[1], std::exp(-1.0), 1e-6);
   EXPECT_NEAR(to_point[2], std::exp(-2.0), 1e-6);
   EXPECT_EQ(rays, 5u);
   const Spectrum to_infinity =
-      transmittance_through_media(*scene, spawn_ray(outside, {0, 0, 1}), nullptr, white, rays);
+      transmittance_on_way(*scene, spawn_ray(outside, {0, 0, 1}), nullptr, white, rays);
   for (int lane = 0; lane < 3; ++lane) EXPECT_NEAR(to_infinity[lane], to_point[lane], 1e-6);
   // It may end in a medium, and start in one.
-  const Spectrum to_center = transmittance_through_media(
-      *scene, spawn_ray_to(outside, Vec3f(0, 0, 0)), nullptr, white, rays);
+  const Spectrum to_center =
+      transmittance_on_way(*scene, spawn_ray_to(outside, Vec3f(0, 0, 0)), nullptr, white, rays);
   EXPECT_NEAR(to_center[0], std::exp(-0.5 - 2), 1e-6);
   SurfacePoint center;
-  const Spectrum from_center =
-      transmittance_through_media(*scene, spawn_ray_to(center, Vec3f(0, 0, 0.5f)),
-                                  scene->surface(1).interior.get(), white, rays);
+  const Spectrum from_center = transmittance_on_way(*scene, spawn_ray_to(center, Vec3f(0, 0, 0.5f)),
+                                                    scene->surface(1).interior.get(), white, rays);
   EXPECT_NEAR(from_center[2], std::exp(-0.5), 1e-6);
 }
 
@@ -73,8 +72,8 @@ TEST(ShadowRays, FollowTheWavelengths) {
   SurfacePoint outside;
   outside.position = {0, 0, -5};
   uint64_t rays = 0;
-  const Spectrum left = transmittance_through_media(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)),
-                                                    nullptr, {{440, 500, 580, 660}, numbers}, rays);
+  const Spectrum left = transmittance_on_way(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr,
+                                             {{440, 500, 580, 660}, numbers}, rays);
   const double extinctions[] = {0.1, 0.25, 0.45, 0.65};
   for (int lane = 0; lane < 4; ++lane)
     EXPECT_NEAR(left[lane], std::exp(-2 * extinctions[lane]), 1e-5) << lane;
@@ -86,9 +85,9 @@ TEST(ShadowRays, AreBlockedByWhatIsMoreThanABoundary) {
     SurfacePoint outside;
     outside.position = {0, 0, -5};
     uint64_t rays = 0;
-    EXPECT_TRUE(transmittance_through_media(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr,
-                                            white, rays)
-                    .is_zero());
+    EXPECT_TRUE(
+        transmittance_on_way(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr, white, rays)
+            .is_zero());
   }
 }
 

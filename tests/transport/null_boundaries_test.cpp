@@ -31,9 +31,8 @@ TEST(NullBoundaries, RaysEndWhereTheyMeet) {
   for (int i = 0; i < count; ++i) {
     const Vec3f from = square_to_sphere(sampler.next_2d()) * 0.7f;
     EXPECT_TRUE(is_unobstructed(*scene, {from, -from, 1}, rays)) << from;
-    EXPECT_NEAR(
-        transmittance_through_media(*scene, {from, -from, 1}, nullptr, {{}, sampler}, rays)[0], 1,
-        1e-6);
+    EXPECT_NEAR(transmittance_on_way(*scene, {from, -from, 1}, nullptr, {{}, sampler}, rays)[0], 1,
+                1e-6);
   }
   EXPECT_LT(rays, uint64_t(20 * count));
 }

@@ -47,6 +47,7 @@ enum class Fork : uint32_t {
   merge_sight,
   medium_merge_sight,
   delta_branch,
+  straight_branch,
   flight_looks,
   medium_looks
 };
@@ -151,6 +152,7 @@ inline constexpr ForkRow fork_rows[] = {
     {Fork::merge_sight, Parent::vertex, 0x70000014, 1, "which light vertices are looked at"},
     {Fork::medium_merge_sight, Parent::vertex, 0x70000015, 1, "the same in media"},
     {Fork::delta_branch, Parent::vertex, 0x70000016, 1, "a branch at a smooth transparent surface"},
+    {Fork::straight_branch, Parent::vertex, 0x70000018, 1, "a branch that goes straight on"},
     {Fork::flight_looks, Parent::vertex, 0x70000017, 1, "where a flight looks at the density"},
     {Fork::medium_looks, Parent::vertex, 0x80000000, 0x80000000, "the same of segments, by hash"},
 };

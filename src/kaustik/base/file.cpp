@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "kaustik/base/error.h"
+#include "kaustik/base/inflate.h"
 
 namespace kaustik {
 namespace {
@@ -250,9 +251,38 @@ InputFile::InputFile(const std::string& path)
   closer.release();
 }
 
+InputFile::InputFile(const std::string& path, MayBePacked) : InputFile(path) {
+  // Meshes of text are packed to a tenth.
+  constexpr uint64_t usual_growth = 30, always_allowed_growth = uint64_t{64} << 20;
+  uint8_t mark[2];
+  if (read(0, mark) < 2 || mark[0] != 0x1f || mark[1] != 0x8b) return;
+  std::vector<uint8_t> packed(size_);
+  packed.resize(read(0, packed));
+  const uint64_t most = always_allowed_growth + usual_growth * packed.size();
+  std::vector<uint8_t> bytes;
+  Inflater inflater(packed, Packing::gzip);
+  inflater.unpack(bytes, size_t(most) + 1);
+  if (inflater.is_damaged() || bytes.empty())
+    throw_input(fmt::format("the gzip'd file '{}' is damaged or ends too early", path),
+                "copy or pack it again");
+  if (bytes.size() > most)
+    throw_input(fmt::format("the gzip'd file '{}' grows to more than {} bytes", path, most),
+                "unpack it if that is meant");
+  unpacked_ = std::move(bytes);
+  size_ = unpacked_.size();
+}
+
+InputFile InputFile::unpacked(const std::string& path) { return InputFile(path, MayBePacked()); }
+
 InputFile::~InputFile() { ::close(descriptor_); }
 
 size_t InputFile::read(uint64_t begin, std::span<uint8_t> out) const {
+  if (!unpacked_.empty()) {
+    const auto from = unpacked_.begin() + std::ptrdiff_t(std::min(begin, size_));
+    const size_t count = std::min(out.size(), size_t(unpacked_.end() - from));
+    std::copy_n(from, count, out.begin());
+    return count;
+  }
   size_t filled = 0;
   while (filled < out.size()) {
     const ssize_t count =

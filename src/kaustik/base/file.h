@@ -24,21 +24,28 @@ class InputFile {
  public:
   /// Throws as read_file() does.
   explicit InputFile(const std::string& path);
+  /// The same of what gzip has packed into the file, if it has, which is then in memory. Throws
+  /// Error(input) for packed data that are damaged, incomplete, or grow out of all proportion.
+  static InputFile unpacked(const std::string& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// When it was opened.
+  /// When it was opened; unpacked.
   uint64_t size() const { return size_; }
   /// Fills `out` with what there is from `begin` on; returns how many bytes that are: fewer only
   /// where the file ends. Throws Error(system).
   size_t read(uint64_t begin, std::span<uint8_t> out) const;
 
  private:
+  struct MayBePacked {};
+  InputFile(const std::string& path, MayBePacked);
+
   std::string path_;
   int descriptor_;
   uint64_t size_ = 0;
+  std::vector<uint8_t> unpacked_;  ///< of a packed file; else empty
 };
 
 /// Puts `bytes` at `path` as a whole or not at all: written to a temporary file in the same folder,

@@ -1,6 +1,7 @@
 #include "kaustik/base/parameters.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -344,11 +345,11 @@ std::vector<Property> UnknownParameters::without_unknown(const TypeInfo& info,
       add(fmt::format("'{}' of {} '{}' is taken as '{}'", property.name, info.family, info.name,
                       snake),
           property.place);
-      known.push_back({snake, property.value, property.place});
+      known.push_back({snake, property.value, property.place, property.name});
       continue;
     }
     add(fmt::format("{} '{}' has no parameter '{}': it is left out", info.family, info.name,
-                    property.name),
+                    property.spelling()),
         property.place, nearest_name(property.name, info.parameter_names()));
   }
   return known;
@@ -419,28 +420,28 @@ bool Arguments::is_complete() const {
 void Arguments::accept(const Property& property, Problems& problems) {
   const Parameter* parameter = info_->find(property.name);
   if (!parameter) {
-    problems.add(
-        fmt::format("{} '{}' has no parameter '{}'", info_->family, info_->name, property.name),
-        info_->parameters.empty() ? "remove it: it takes none"
-                                  : suggest(property.name, info_->parameter_names()),
-        property.place);
+    problems.add(fmt::format("{} '{}' has no parameter '{}'", info_->family, info_->name,
+                             property.spelling()),
+                 info_->parameters.empty() ? "remove it: it takes none"
+                                           : suggest(property.name, info_->parameter_names()),
+                 property.place);
     return;
   }
   Slot& slot = slots_[size_t(parameter - info_->parameters.data())];
   if (slot.given) {
-    problems.add(fmt::format("'{}' is given twice", property.name), keep_one(slot.place),
+    problems.add(fmt::format("'{}' is given twice", property.spelling()), keep_one(slot.place),
                  property.place);
     return;
   }
   slot.given = true;
   slot.place = property.place;
   if (parameter->no_effect) {
-    ignored_.push_back(parameter->name);
+    ignored_.push_back(property);
     return;
   }
   const auto value = coerce(property.value, parameter->kind);
   if (!value) {
-    problems.add(fmt::format("'{}' has the wrong type", property.name),
+    problems.add(fmt::format("'{}' has the wrong type", property.spelling()),
                  fmt::format("give it as {}: {}", kind_name(parameter->kind), parameter->sentence),
                  property.place);
     return;
@@ -491,6 +492,16 @@ const Transform& Arguments::transform(std::string_view name) const {
 }
 const std::shared_ptr<const Array>& Arguments::array(std::string_view name) const {
   return std::get<std::shared_ptr<const Array>>(slot(name).value);
+}
+
+std::string name_and_place(const Property& property, const std::string& object) {
+  const std::string name = fmt::format("'{}' of {}", property.spelling(), object);
+  if (property.place.line == 0) return name;
+  return fmt::format("{} ({})", name, text_of(property.place));
+}
+
+std::string without_effect(const std::vector<std::string>& names) {
+  return fmt::format("without effect here: {}", fmt::join(names, ", "));
 }
 
 std::string kind_name(ParameterKind kind) {

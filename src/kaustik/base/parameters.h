@@ -43,6 +43,9 @@ struct Property {
   std::string name;
   Value value;
   Place place;
+  std::string written = {};  ///< what its file calls it; "": the same
+
+  const std::string& spelling() const { return written.empty() ? name : written; }
 };
 
 enum class ParameterKind {
@@ -198,8 +201,8 @@ class Arguments {
   /// Of the extents that the row asks for; null if it was not given.
   const std::shared_ptr<const Array>& array(std::string_view name) const;
 
-  /// Names of accepted parameters without effect that were given.
-  const std::vector<std::string>& ignored() const { return ignored_; }
+  /// Accepted parameters without effect that were given.
+  const std::vector<Property>& ignored() const { return ignored_; }
 
  private:
   struct Slot {
@@ -217,8 +220,13 @@ class Arguments {
   const TypeInfo* info_;
   Place place_;
   std::vector<Slot> slots_;  ///< parallel to info_->parameters
-  std::vector<std::string> ignored_;
+  std::vector<Property> ignored_;
 };
+
+/// "'fileFormat' of film 'hdrfilm' (scene.xml:12:7)": as its file has it, for messages.
+std::string name_and_place(const Property& property, const std::string& object);
+/// "without effect here: …"; the names as name_and_place() gives them.
+std::string without_effect(const std::vector<std::string>& names);
 
 /// "number", "boolean", … for messages and help.
 std::string kind_name(ParameterKind kind);

@@ -180,6 +180,14 @@ ConfidenceInterval student_t_interval(const RunningStatistics& values, double co
   return {values.mean(), t * values.standard_error()};
 }
 
+double t_test_p_value(const RunningStatistics& values, double expected,
+                      double least_standard_error) {
+  if (values.mean() == expected) return 1;
+  const double error = std::max(values.standard_error(), least_standard_error);
+  const double t = std::fabs(values.mean() - expected) / error;
+  return 2 * student_t_cdf(-t, double(values.count() - 1));
+}
+
 double sidak_level(double level, int tests) { return -std::expm1(std::log1p(-level) / tests); }
 
 }  // namespace kaustik

@@ -69,6 +69,11 @@ struct ConfidenceInterval {
 /// By Student's t over independent values; the half width is infinite with fewer than two.
 ConfidenceInterval student_t_interval(const RunningStatistics& values, double confidence = 0.95);
 
+/// Two-sided p value of Student's t for independent values against the expected mean. No error
+/// counts that is smaller than `least_standard_error`: expected values are written with few digits.
+double t_test_p_value(const RunningStatistics& values, double expected,
+                      double least_standard_error = 0);
+
 /// Šidák (1967): the level for each of `tests` independent tests under which all of them together
 /// reject a true hypothesis with chance `level`.
 double sidak_level(double level, int tests);

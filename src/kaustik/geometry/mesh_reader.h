@@ -39,7 +39,7 @@ MeshFile read_obj(const std::string& path, const ObjSelection& selection = {});
 MeshFile read_serialized(const std::string& path, uint64_t shape_index);
 
 /// Reads the file of a shape of type `obj`, `ply` or `serialized`, as much of it as the arguments
-/// select; nothing for other types.
+/// select, or the buffers of a `mesh`; nothing for other types.
 std::optional<MeshFile> read_mesh_file(const Arguments& arguments);
 /// The same with all done to it that other programs cannot: `flip_tex_coords` has been applied, and
 /// vertices without a normal have one if others do. With `max_smooth_angle` it has the normals of

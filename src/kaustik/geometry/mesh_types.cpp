@@ -26,6 +26,8 @@ std::vector<Parameter> mesh_option_parameters(bool flip_tex_coords) {
       boolean_parameter("flip_normals", false, "Turns the surface inside out."),
       boolean_parameter("flip_tex_coords", flip_tex_coords,
                         "Turns texture coordinates upside down (v becomes 1 - v)."),
+      boolean_parameter("front_by_normals", false,
+                        "Turns each triangle to the side of its vertex normals, as pbrt does."),
   };
 }
 
@@ -46,6 +48,21 @@ MeshOptions mesh_options(const Arguments& arguments) {
 
 std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
   return with_options({file_parameter("filename", "Mesh file.")}, flip_tex_coords);
+}
+
+/// With each triangle turned to the side of its vertex normals where that is wanted.
+MeshFile turned_as_wanted(MeshFile file, const Arguments& arguments) {
+  TriangleMesh& mesh = file.mesh;
+  if (!arguments.boolean("front_by_normals") || mesh.normals.empty()) return file;
+  for (std::array<uint32_t, 3>& corner : mesh.triangles) {
+    const Vec3d a(mesh.positions[corner[0]]);
+    const Vec3d front =
+        (Vec3d(mesh.positions[corner[1]]) - a).cross(Vec3d(mesh.positions[corner[2]]) - a);
+    Vec3d normals(0, 0, 0);
+    for (const uint32_t vertex : corner) normals += Vec3d(mesh.normals[vertex]);
+    if (front.dot(normals) < 0) std::swap(corner[1], corner[2]);
+  }
+  return file;
 }
 
 MeshFile read_selected_obj(const Arguments& arguments) {
@@ -144,10 +161,13 @@ std::unique_ptr<Shape> create_serialized(const Arguments& arguments) {
 
 std::optional<MeshFile> read_mesh_file(const Arguments& arguments) {
   const std::string& type = arguments.info().name;
-  if (type == "obj") return read_selected_obj(arguments);
-  if (type == "ply") return read_ply(arguments.text("filename"));
+  const auto turned = [&](MeshFile file) { return turned_as_wanted(std::move(file), arguments); };
+  if (type == "obj") return turned(read_selected_obj(arguments));
+  if (type == "ply") return turned(read_ply(arguments.text("filename")));
   if (type == "serialized")
-    return read_serialized(arguments.text("filename"), uint64_t(arguments.integer("shape_index")));
+    return turned(
+        read_serialized(arguments.text("filename"), uint64_t(arguments.integer("shape_index"))));
+  if (type == "mesh") return turned({mesh_of_buffers(arguments), {}});
   return std::nullopt;
 }
 
@@ -171,8 +191,7 @@ MeshFile unplaced_mesh(const Arguments& arguments) {
   if (options.flip_tex_coords)
     for (Vec2f& uv : mesh.uvs) uv.y = 1.0f - uv.y;
   options.flip_normals = options.flip_tex_coords = false;
-  if (options.max_smooth_angle)
-    mesh = prepare_mesh(std::move(mesh), options, place_in(arguments.text("filename")));
+  if (options.max_smooth_angle) mesh = prepare_mesh(std::move(mesh), options, arguments.place());
   return file;
 }
 
@@ -185,7 +204,7 @@ const TypeInfo& mesh_info() {
 std::unique_ptr<Shape> create_mesh(const Arguments& arguments) {
   const MeshOptions options = mesh_options(arguments);
   return std::make_unique<MeshShape>(
-      prepare_mesh(mesh_of_buffers(arguments), options, arguments.place_of("positions")));
+      prepare_mesh(read_mesh_file(arguments)->mesh, options, arguments.place_of("positions")));
 }
 
 const TypeInfo& rectangle_info() {

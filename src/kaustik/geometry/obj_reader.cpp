@@ -17,13 +17,13 @@
 
 #include "kaustik/base/decimal.h"
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/polygon_cutter.h"
 #include "kaustik/base/srgb.h"
 #include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/obj_pieces.h"
 #include "kaustik/geometry/obj_vertices.h"
-#include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik {
 namespace {

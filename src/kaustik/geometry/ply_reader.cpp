@@ -11,13 +11,13 @@
 #include <string_view>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/polygon_cutter.h"
 #include "kaustik/geometry/file_window.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/ply_attributes.h"
 #include "kaustik/geometry/ply_header.h"
 #include "kaustik/geometry/ply_values.h"
-#include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik {
 namespace {
@@ -42,7 +42,7 @@ class PlyReader {
  public:
   explicit PlyReader(const std::string& path)
       : path_(path),
-        file_(path),
+        file_(InputFile::unpacked(path)),
         window_(file_),
         header_(read_ply_header(path, window_)),
         line_(is_text() ? header_.lines + 1 : 0),

@@ -33,12 +33,15 @@ void check_memory(const Array& array, size_t channels, const ReadOptions& option
 
 Image image_of_array(const Array& array, const ReadOptions& options) {
   const std::vector<size_t>& extents = array.extents();
+  if (extents.size() == 1 && array.type() == ElementType::uint8)
+    return read_image({reinterpret_cast<const uint8_t*>(array.bytes().data()), array.count()},
+                      "data", options);
   const size_t channels = extents.size() == 3 ? extents[2] : 1;
   if ((extents.size() != 2 && extents.size() != 3) ||
       (channels != 1 && channels != 3 && channels != 4))
     throw Error(ErrorKind::input,
                 fmt::format("a picture cannot have the extents {}", extents_text(extents)),
-                "give [rows, columns], or [rows, columns, 1, 3 or 4]");
+                "give [rows, columns], or [rows, columns, 1, 3 or 4], or a file's bytes as uint8");
   constexpr size_t most = size_t(max_image_pixels);
   check_image_size(int64_t(std::min(extents[1], most)), int64_t(std::min(extents[0], most)),
                    int64_t(channels));

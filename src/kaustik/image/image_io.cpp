@@ -138,6 +138,20 @@ Image decode(ByteView file, const std::string& path, const ReadOptions& options)
   throw formats::BadImage("it is no image of a known format");
 }
 
+[[noreturn]] void refuse_for_machine(const std::string& name, const std::string& reason,
+                                     const std::string& remedy) {
+  throw Error(ErrorKind::system, fmt::format("cannot read image '{}': {}", name, reason), remedy);
+}
+
+void check_file_size(uint64_t bytes, const std::string& name, const ReadOptions& options) {
+  if (double(bytes) > double(options.memory_bytes))
+    refuse_for_machine(name,
+                       fmt::format("the file alone takes {:.3g} MB of memory, and it may take "
+                                   "{:.3g} MB",
+                                   double(bytes) / 1e6, double(options.memory_bytes) / 1e6),
+                       options.memory_remedy);
+}
+
 }  // namespace
 
 Image read_image_beside(const std::string& path, int64_t kept_bytes_per_pixel, int images) {
@@ -148,33 +162,30 @@ Image read_image_beside(const std::string& path, int64_t kept_bytes_per_pixel, i
 }
 
 Image read_image(const std::string& path, const ReadOptions& options) {
-  const auto refuse = [&](const std::string& reason) {
-    throw Error(ErrorKind::input, fmt::format("cannot read image '{}': {}", path, reason),
-                "give a complete EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA, PPM or PGM file");
-  };
-  const auto refuse_for_machine = [&](const std::string& reason, const std::string& remedy) {
-    throw Error(ErrorKind::system, fmt::format("cannot read image '{}': {}", path, reason), remedy);
-  };
   std::error_code unknown;  // who reads it will tell
   const auto file_size = std::filesystem::file_size(path, unknown);
-  if (!unknown && double(file_size) > double(options.memory_bytes))
-    refuse_for_machine(fmt::format("the file alone takes {:.3g} MB of memory, and it may take "
-                                   "{:.3g} MB",
-                                   double(file_size) / 1e6, double(options.memory_bytes) / 1e6),
-                       options.memory_remedy);
-  const std::vector<uint8_t> file = read_file(path);
+  if (!unknown) check_file_size(file_size, path, options);
+  return read_image(read_file(path), path, options);
+}
+
+Image read_image(ByteView file, const std::string& name, const ReadOptions& options) {
+  check_file_size(file.size(), name, options);
+  const auto refuse = [&](const std::string& reason) {
+    throw Error(ErrorKind::input, fmt::format("cannot read image '{}': {}", name, reason),
+                "give a complete EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA, PPM or PGM file");
+  };
   try {
-    Image image = decode(file, path, options);
+    Image image = decode(file, name, options);
     if (options.srgb_to_linear && image.is_srgb_encoded()) formats::linearise(image);
     return image;
   } catch (const formats::TooLittleMemory& error) {
-    refuse_for_machine(error.what(), options.memory_remedy);
+    refuse_for_machine(name, error.what(), options.memory_remedy);
   } catch (const std::bad_alloc&) {
-    refuse_for_machine("there is not enough memory for it", options.memory_remedy);
+    refuse_for_machine(name, "there is not enough memory for it", options.memory_remedy);
   } catch (const Error& error) {
     const Problem& problem = error.problems().front();
     if (error.kind() == ErrorKind::input) refuse(problem.message);
-    refuse_for_machine(problem.message, problem.remedy);
+    refuse_for_machine(name, problem.message, problem.remedy);
   } catch (const std::exception& error) {
     refuse(error.what());
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 
 #include "kaustik/image/image.h"
@@ -30,6 +31,9 @@ struct ReadOptions {
 /// truncated, corrupt or not an image, Error(system) if the picture takes more memory than it may
 /// or than there is: never more than some 100 MB beyond what the image has to hold.
 Image read_image(const std::string& path, const ReadOptions& options = {});
+/// The same of a file's bytes, which messages call by this name.
+Image read_image(std::span<const uint8_t> file, const std::string& name,
+                 const ReadOptions& options = {});
 /// The same for a caller that needs so many bytes per pixel beside the image, and that holds so
 /// many images like it at a time: they share the memory.
 Image read_image_beside(const std::string& path, int64_t kept_bytes_per_pixel, int images = 1);

@@ -1,11 +1,12 @@
 #pragma once
+#include "kaustik/base/photometric_units.h"
 #include "kaustik/base/srgb.h"
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
 
-/// Lumens per watt of white light, the convention of lighting simulation (Radiance's WHTEFFICACY).
-inline constexpr float white_efficacy = 179.0f;
+/// Lumens per watt of white light.
+inline constexpr float white_efficacy = float(lumens_per_watt_white);
 
 /// Photopic part of a linear Rec. 709 colour: the Y of CIE XYZ, 1 for white (1, 1, 1).
 inline float photopic(const Vec3f& rgb) {

@@ -63,6 +63,34 @@ std::set<int> distinct(const std::array<int, 3>& channels) {
   return result;
 }
 
+/// Of a picture without opacity, as if it had one.
+Image opaque(const Image& image) {
+  Image result(image.width(), image.height(), {"A"});
+  std::ranges::fill(result.channel(0), 1.0f);
+  return result;
+}
+
+/// The channel that makes one number of each pixel: opacity where the picture has one that is not 1
+/// everywhere, else the mean of red, green and blue.
+constexpr std::string_view one_number = "number";
+
+/// The opacity of a picture; -1: it has none, or it is 1 everywhere.
+int uneven_opacity(const Image& image) {
+  const int channel = image.find_channel("A");
+  if (channel < 0) return -1;
+  return std::ranges::all_of(image.channel(channel), [](float a) { return a == 1; }) ? -1 : channel;
+}
+
+/// Those channels of a picture, as their mean.
+Image mean_of(const Image& image, const std::array<int, 3>& channels) {
+  Image mean(image.width(), image.height(), {"Y"});
+  for (const int c : channels)
+    if (c >= 0)
+      for (size_t i = 0; i < image.pixel_count(); ++i)
+        mean.channel(0)[i] += image.channel(c)[i] * (1.0f / 3);
+  return mean;
+}
+
 /// See PictureWish::gamma.
 float decoded(float value, double gamma) {
   return gamma < 0 ? linear_from_srgb(value) : float(std::pow(double(value), gamma));
@@ -112,7 +140,8 @@ std::vector<Parameter> picture_parameters(const std::string& of_file,
                      "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file" + of_file),
       array_parameter("data", {},
                       "Picture [rows, columns] or [rows, columns, 1, 3 or 4] from a program's "
-                      "buffer, instead of the file: uint8, uint16, float32 or float64.")
+                      "buffer, instead of the file: uint8, uint16, float32 or float64; or the "
+                      "bytes of such a file, uint8.")
           .instead_of("filename")};
   for (Parameter& other : others) rows.push_back(std::move(other));
   return rows;
@@ -158,8 +187,17 @@ bool PictureReader::account(const Use& use) {
 }
 
 Image PictureReader::chosen(Image image, const Arguments& arguments, const PictureWish& wish) {
+  if (wish.channels == one_number) {
+    const bool has_opacity = uneven_opacity(image) >= 0;
+    image = chosen(std::move(image), arguments, {wish.gamma, has_opacity ? "a" : ""});
+    const std::array<int, 3> shown = *colour_channels(image.channel_names());
+    return distinct(shown).size() == 1 ? std::move(image) : mean_of(image, shown);
+  }
   const std::vector<std::string>& names = image.channel_names();
   const auto channels = picture_channels(names, wish.channels);
+  const bool wants_opacity = wish.channels == "a" || wish.channels == "A";
+  if (!channels && wants_opacity && colour_channels(names))
+    return chosen(opaque(image), arguments, wish);
   if (!channels) fail_without(image, arguments, wish.channels);
   const bool is_opacity = names[size_t(std::max((*channels)[0], 0))] == "A";
   const bool is_linear = wish.gamma == 0 || wish.gamma == 1 || is_opacity;
@@ -182,8 +220,8 @@ Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pix
   ReadOptions options;
   options.srgb_to_linear = wish.gamma == 0;
   options.whole_picture = true;
-  options.only_colours = true;
-  options.channels = wish.channels;
+  options.only_colours = wish.channels != one_number;
+  if (options.only_colours) options.channels = wish.channels;
   options.memory_bytes = left_bytes_;
   options.kept_bytes_per_pixel = kept_bytes_per_pixel;
   options.memory_remedy = fmt::format(

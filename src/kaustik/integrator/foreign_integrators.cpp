@@ -73,6 +73,7 @@ Object translated(const Object& object, const ForeignIntegrator& foreign, bool i
   Object result = object;
   result.type = foreign.native;
   result.properties.clear();
+  std::vector<std::string> ignored;
   for (const Property& property : given) {
     bool is_renamed = false;
     for (const auto& [theirs, ours] : foreign.renamed)
@@ -80,14 +81,14 @@ Object translated(const Object& object, const ForeignIntegrator& foreign, bool i
         is_renamed = true;
         // Who gives ours, too, means that.
         if (!arguments.given(ours))
-          result.properties.push_back({ours, property.value, property.place});
+          result.properties.push_back({ours, property.value, property.place, property.spelling()});
       }
     const Parameter* beside = foreign.info.find(property.name);
     if (!is_renamed && !beside) result.properties.push_back(property);
     if (beside && beside->no_effect)
-      notes.push_back(
-          fmt::format("'{}' of integrator '{}' has no effect here", property.name, object.type));
+      ignored.push_back(name_and_place(property, fmt::format("integrator '{}'", object.type)));
   }
+  if (!ignored.empty()) notes.push_back(without_effect(ignored));
   for (const Property& implied : foreign.implied)
     if (!arguments.given(implied.name)) result.properties.push_back(implied);
   return result;

@@ -21,7 +21,7 @@ Rows operator+(Rows a, const Rows& b) {
   return a;
 }
 
-/// Without a row that the native type has itself.
+/// Without rows that the native type has itself; other names of it are listed, but not its own.
 ForeignIntegrator row(std::vector<std::string> names, std::string native, std::string sentence,
                       const Rows& rows) {
   const IntegratorType* type = find_integrator_type(native);
@@ -29,6 +29,7 @@ ForeignIntegrator row(std::vector<std::string> names, std::string native, std::s
   for (const Parameter& parameter : rows)
     if (!type || !type->info.find(parameter.name)) foreign.info.parameters.push_back(parameter);
   names.erase(names.begin());
+  std::erase(names, foreign.native);
   if (!names.empty()) sentence += fmt::format(" Also: {}.", fmt::join(names, ", "));
   foreign.info.sentence = std::move(sentence);
   return foreign;
@@ -37,10 +38,13 @@ ForeignIntegrator row(std::vector<std::string> names, std::string native, std::s
 /// The method by another name, with the native type's parameters.
 ForeignIntegrator same(std::vector<std::string> names, const std::string& native,
                        const Rows& rows) {
-  return row(
-      std::move(names), native,
-      fmt::format("Another renderer's name for '{0}'; takes the parameters of '{0}', too.", native),
-      rows);
+  const std::string sentence =
+      names[0] == native
+          ? fmt::format("Other renderers' '{0}': takes these parameters beside those of '{0}'.",
+                        native)
+          : fmt::format("Another renderer's name for '{0}'; takes the parameters of '{0}', too.",
+                        native);
+  return row(std::move(names), native, sentence, rows);
 }
 
 /// What is nearest to a method that is not here.

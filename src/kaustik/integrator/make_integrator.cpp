@@ -84,9 +84,10 @@ std::unique_ptr<Integrator> create(const Object& given, const Scene& scene, bool
   if (of_surface) refuse_what_is_the_scenes(arguments, problems);
   problems.throw_if_any();
   for (const std::string& warning : unknown.warnings()) tell_once(warning, warnings);
-  for (const std::string& ignored : arguments.ignored())
-    tell_once(fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type),
-              warnings);
+  std::vector<std::string> ignored;
+  for (const Property& property : arguments.ignored())
+    ignored.push_back(name_and_place(property, fmt::format("integrator '{}'", object.type)));
+  if (!ignored.empty()) tell_once(without_effect(ignored), warnings);
   if (!of_surface) refuse_gauges(type, scene, object.place);
   return type.create(arguments, scene);
 }

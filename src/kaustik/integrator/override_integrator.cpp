@@ -58,8 +58,8 @@ std::string override_integrator(Description& description, const std::string& typ
     if (old_type && !has_effect(old_type, property.name)) continue;
     if (new_type && takes(*new_type, property) && !implies(type, property.name))
       kept.push_back(property);
-    else
-      left_out.push_back(property.name);
+    else if (std::ranges::find(left_out, property.spelling()) == left_out.end())
+      left_out.push_back(property.spelling());
   }
   const std::string type_before = object->type;
   object->type = type;

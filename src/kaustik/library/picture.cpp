@@ -5,6 +5,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/image_io.h"
+#include "kaustik/image/layer_names.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/library/access.h"
 #include "kaustik/library/boundary.h"
@@ -79,13 +80,7 @@ bool Picture::is_incomplete() const noexcept {
 std::vector<std::string> Picture::channels() const { return state_->image.channel_names(); }
 
 std::vector<std::string> Picture::layers() const {
-  std::vector<std::string> layers;
-  for (const std::string& name : state_->image.channel_names()) {
-    const size_t dot = name.rfind('.');
-    const std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
-    if (std::find(layers.begin(), layers.end(), layer) == layers.end()) layers.push_back(layer);
-  }
-  return layers;
+  return layer_names(state_->image.channel_names());
 }
 
 bool Picture::has_channel(const std::string& name) const noexcept {

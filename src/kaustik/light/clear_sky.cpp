@@ -1,12 +1,11 @@
 #include "kaustik/light/clear_sky.h"
 
 #include "kaustik/base/color.h"
+#include "kaustik/base/photometric_units.h"
 
 namespace kaustik {
 namespace {
 
-constexpr double lumens_per_watt_555 = 683;  // of the definition of the lumen
-constexpr double lumens_per_watt_white = 179;
 constexpr double sun_solid_angle = 6.7443e-5;  // sr, that the radiances below go with
 constexpr double ozone_thickness = 0.35;       // cm
 constexpr int step = 10;                       // nm, from 380 to 750

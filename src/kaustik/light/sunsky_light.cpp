@@ -108,8 +108,9 @@ class SunDisk {
 /// What the parameters come to.
 struct SunSkySettings {
   double turbidity = 3;
-  double ground_albedo = 0.3;  ///< photopic
-  Vec3d to_sun;                ///< unit, +z is the zenith, above the horizon
+  double ground_albedo = 0.3;              ///< photopic
+  Vec3d to_sun;                            ///< unit, +z is the zenith, above the horizon
+  std::optional<Spectrum> sun_irradiance;  ///< given, instead of that by turbidity
   double sun_scale = 1, sky_scale = 1;
   double sun_aperture = 0;  ///< radians, the whole angle
   Transform to_world;
@@ -164,6 +165,7 @@ class SunSkyLight final : public EnvironmentLight {
     return all - from_sun;
   }
   static Spectrum sun_irradiance(const SunSkySettings& settings, const Daylight& day) {
+    if (settings.sun_irradiance) return *settings.sun_irradiance * float(settings.sun_scale);
     const Vec3d rgb = day.sun_rgb * settings.sun_scale;
     return spectrum_from_rgb(std::max(float(rgb.x), 0.0f), std::max(float(rgb.y), 0.0f),
                              std::max(float(rgb.z), 0.0f));
@@ -274,6 +276,8 @@ SunSkySettings read_settings(const LightInputs& inputs) {
   const double unit = arguments.text("units") == "mitsuba" ? mitsuba_daylight : 1;
   settings.sun_scale = unit * number("sun_scale", 0);
   settings.sky_scale = unit * number("sky_scale", 0);
+  if (arguments.info().find("irradiance") && arguments.given("irradiance"))
+    settings.sun_irradiance = emission_spectrum(arguments.color("irradiance"));
   settings.sun_aperture = number("sun_aperture", 0.5358) * std::numbers::pi / 180;
   return settings;
 }
@@ -315,6 +319,12 @@ std::vector<Parameter> parameters(Parts parts) {
       optional(point_parameter("sun_direction", {0, 0, 1},
                                "Direction to the sun in the world, instead of place and time."))
           .moved(WhenMoved::turned)};
+  if (parts == Parts::sun)
+    table.push_back(optional(color_parameter("irradiance", 0,
+                                             "What a surface that faces the sun receives; by "
+                                             "turbidity and altitude if absent."))
+                        .range(0, 1e30)
+                        .in("W/m²"));
   if (parts != Parts::sky) {
     table.push_back(
         number_parameter("sun_scale", 1, "Factor on the sun's radiance.").range(0, 1e30));

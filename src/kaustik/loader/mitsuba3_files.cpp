@@ -34,6 +34,9 @@ struct KeyText {
         text += fmt::format("{} ", transform.at(row, column));
     return text;
   }
+  std::string operator()(const std::shared_ptr<const Array>& array) const {
+    return fmt::format("{:x}", array->digest());
+  }
   /// Nothing of the kind makes a difference to a mesh or a picture.
   template <typename Other>
   std::string operator()(const Other&) const {
@@ -85,9 +88,10 @@ void FilesToWrite::use(const std::string& key, const std::shared_ptr<Object>& us
 void FilesToWrite::use_ply(const std::shared_ptr<Object>& shape, const Object& source) {
   const auto* is_flat = value_in<bool>(source, "face_normals");
   const bool is_placed = find_property(source, "max_smooth_angle") && !(is_flat && *is_flat);
-  std::set<std::string_view> names = {"filename",    "shape_index", "material", "flip_tex_coords",
-                                      "scale",       "width",       "height",   "max_smooth_angle",
-                                      "face_normals"};
+  std::set<std::string_view> names = {
+      "filename", "shape_index",      "material",     "flip_tex_coords", "scale",     "width",
+      "height",   "max_smooth_angle", "face_normals", "positions",       "faces",     "normals",
+      "uv",       "vertex_color",     "face_color",   "vertex_value",    "face_value"};
   if (is_placed) names.insert("to_world");
   shape->type = "ply";
   if (source.type == "heightfield") {
@@ -105,10 +109,30 @@ void FilesToWrite::use_ply(const std::shared_ptr<Object>& shape, const Object& s
 
 void FilesToWrite::use_exr(const std::shared_ptr<Object>& bitmap, const Rgb& factor) {
   const Object source = *bitmap;
-  for (const char* name : {"gamma", "channel"}) remove_property(*bitmap, name);
-  const std::string key = key_of(source, {"filename", "gamma", "channel", "raw"}) +
+  for (const char* name : {"gamma", "channel", "data", "invert", "power"})
+    remove_property(*bitmap, name);
+  const std::string key = key_of(source, {"filename", "data", "gamma", "channel", "raw",
+                                          "as_number", "invert", "power"}) +
                           fmt::format("{} {} {}", factor.r, factor.g, factor.b);
   use(key, bitmap, source, factor, ".exr");
+}
+
+void FilesToWrite::use_exr_around(const std::shared_ptr<Object>& envmap) {
+  Object source = *envmap;
+  source.family = "texture";
+  source.type = "bitmap";
+  source.children.clear();
+  std::erase_if(source.properties, [](const Property& p) { return p.name != "data"; });
+  const std::string key = key_of(source, {"data"});
+  source.properties.push_back({"raw", true, envmap->place});
+  remove_property(*envmap, "data");
+  use(key, envmap, source, {1, 1, 1}, ".exr");
+}
+
+void FilesToWrite::use_vol(const std::shared_ptr<Object>& volume) {
+  const Object source = *volume;
+  remove_property(*volume, "data");
+  use(key_of(source, {"data"}), volume, source, {1, 1, 1}, ".vol");
 }
 
 }  // namespace kaustik

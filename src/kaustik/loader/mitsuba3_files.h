@@ -9,14 +9,15 @@
 
 namespace kaustik {
 
-/// A mesh or a picture that a scene names and that is still to be written.
+/// A mesh, a picture or a volume that a scene names and that is still to be written.
 struct FileToWrite {
   std::string path;
-  std::shared_ptr<const Object> source;             ///< the shape or the bitmap that it is made of
+  std::shared_ptr<const Object> source;             ///< the shape, bitmap or volume it is made of
   Rgb factor = {1, 1, 1};                           ///< that a picture is multiplied by
   std::vector<std::shared_ptr<Object>> users = {};  ///< that name the file
 
   bool is_mesh() const { return source->family == "shape"; }
+  bool is_volume() const { return source->family == "volume"; }
 };
 
 /// Collects files to write beside a scene and names them after it and what they are made of. What
@@ -31,6 +32,10 @@ class FilesToWrite {
   void use_ply(const std::shared_ptr<Object>& shape, const Object& source);
   /// The bitmap shows a new EXR file, with its picture's values times a factor, linear.
   void use_exr(const std::shared_ptr<Object>& bitmap, const Rgb& factor);
+  /// An `envmap` whose picture is a buffer shows a new EXR file.
+  void use_exr_around(const std::shared_ptr<Object>& envmap);
+  /// The volume has the samples of its buffer from a new VOL file.
+  void use_vol(const std::shared_ptr<Object>& volume);
 
   std::vector<FileToWrite> take() { return std::move(files_); }
 

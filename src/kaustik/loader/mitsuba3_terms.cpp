@@ -103,20 +103,24 @@ class Translator {
       const Rgb factor = scaling_.factor_of(*object);
       if (factor != Rgb{1, 1, 1} || needs_exr(*object)) files_.use_exr(object, factor);
     }
+    if (object->type == "envmap" && find_property(*object, "data")) files_.use_exr_around(object);
+    if (object->family == "volume" && find_property(*object, "data")) files_.use_vol(object);
     if (object->family != "scene") name_what_is_unknown(*object);
     for (const Child& child : object->children) finish(child.object, seen);
   }
 
   static bool needs_exr(const Object& bitmap) {
+    if (find_property(bitmap, "data")) return true;
     const auto gamma = number_in(bitmap, "gamma");
     const auto* channel = value_in<std::string>(bitmap, "channel");
     return value_in<std::string>(bitmap, "filename") &&
-           ((gamma && *gamma != 0) || (channel && !channel->empty()));
+           ((gamma && *gamma != 0) || (channel && !channel->empty()) ||
+            find_property(bitmap, "invert") || find_property(bitmap, "power"));
   }
 
   /// Whether Mitsuba 3 would not read the mesh as Kaustik does.
   bool needs_ply(const Object& shape) {
-    if (shape.type == "heightfield") return true;
+    if (shape.type == "heightfield" || shape.type == "mesh") return true;
     const bool is_obj = shape.type == "obj", is_serialized = shape.type == "serialized";
     if ((!is_obj && !is_serialized && shape.type != "ply") ||
         !value_in<std::string>(shape, "filename"))
@@ -125,8 +129,8 @@ class Translator {
     const auto* flips = value_in<bool>(shape, "flip_tex_coords");
     // It reads no colours but those of PLY files.
     return find_property(shape, "max_smooth_angle") || find_property(shape, "material") ||
-           (is_obj && index && *index >= 0) || (is_serialized && flips && *flips) ||
-           (shape.type != "ply" && asks_attribute(shape));
+           find_property(shape, "front_by_normals") || (is_obj && index && *index >= 0) ||
+           (is_serialized && flips && *flips) || (shape.type != "ply" && asks_attribute(shape));
   }
 
   bool asks_attribute(const Object& object) {
@@ -145,15 +149,17 @@ class Translator {
   }
 
   /// Where Mitsuba 3 lacks the type; what the other type does not know is left out later.
-  void change_type(Object& object, const char* type) {
+  void change_type(Object& object, const char* type, const char* consequence = "") {
     if (mitsuba3_has_type(object.family, object.type)) return;
-    tell(object, fmt::format("{} '{}' becomes '{}'", object.family, object.type, type));
+    tell(object,
+         fmt::format("{} '{}' becomes '{}'{}", object.family, object.type, type, consequence));
     object.type = type;
   }
 
   void change_integrator(Object& object) {
     if (mitsuba3_has_type(object.family, object.type)) return;
-    change_type(object, has_media_ ? "volpath" : "path");
+    change_type(object, has_media_ ? "volpath" : "path",
+                ", which misses caustics of point, spot and directional lamps");
     object.children.clear();
     static const std::set<std::string> kept = {"max_depth", "rr_depth", "hide_emitters"};
     std::erase_if(object.properties, [](const Property& p) { return !kept.contains(p.name); });
@@ -161,6 +167,7 @@ class Translator {
 
   void use_sunsky(Object& emitter) {
     if (emitter.type != "sun" && emitter.type != "sky" && emitter.type != "sunsky") return;
+    if (find_property(emitter, "irradiance")) return;  // there it is by turbidity alone
     result_.version = "3.7.0";  // the first that has it, and means units of Mitsuba
     const Property* units = find_property(emitter, "units");
     const auto* name = units ? std::get_if<std::string>(&units->value) : nullptr;
@@ -182,8 +189,8 @@ class Translator {
       const bool stays = row && (!row->no_effect || is_known_to_mitsuba3(property.name)) &&
                          !may_be_left_out(object.family, property.name);
       if (!stays)
-        tell(object,
-             fmt::format("'{}' of {} '{}' is left out", property.name, object.family, object.type));
+        tell(object, fmt::format("'{}' of {} '{}' is left out", property.spelling(), object.family,
+                                 object.type));
       return !stays;
     });
   }

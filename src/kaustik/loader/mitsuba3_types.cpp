@@ -60,6 +60,7 @@ const std::vector<LackingInMitsuba3>& lacking() {
       {"emitter", "area", "two_sided"},
       {"emitter", "spot", "falloff"},
       {"emitter", "envmap", "gamma"},
+      {"emitter", "envmap", "projection", {"equalarea"}},
       {"emitter", "", "attenuation"},
       {"emitter", "", "shadow_samples"},
       {"emitter", "", "visible"},
@@ -94,6 +95,7 @@ const LackingInMitsuba3* lacking_in_mitsuba3(const std::string& family, const st
 
 bool is_known_to_mitsuba3(const std::string& parameter) {
   static const std::set<std::string> names = {"accel",
+                                              "aovs",
                                               "complex_sun",
                                               "component_format",
                                               "compensate",

@@ -36,6 +36,12 @@ Vec3d parse_point(const Element& element) {
   return parse_components(element, 0);
 }
 
+/// For Property::written.
+std::string spelling_of(const Element& element, const std::string& name) {
+  std::string written = element.value("name");
+  return written == name ? std::string() : written;
+}
+
 size_t bytes_of(const SpectralCurve& curve) {
   return curve.samples.size() * sizeof(curve.samples[0]);
 }
@@ -62,7 +68,8 @@ void Reader::read_property(const Element& element, Unfinished& parent, Source& s
     Value value = value_of(element, name, source);
     if (element.tag == "spectrum" && parent.object->family == "emitter")
       value = light_of(value, source);
-    parent.object->properties.push_back({name, std::move(value), element.place});
+    parent.object->properties.push_back(
+        {name, std::move(value), element.place, spelling_of(element, name)});
   } catch (const BadValue& bad) {
     add(problems_, bad, element.place);
   }
@@ -187,7 +194,8 @@ void Reader::add_transform(const Element& element, const Transform& transform, U
                            const Source& source) {
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   if (take_name(parent, name, element.place))
-    parent.object->properties.push_back({name, transform, element.place});
+    parent.object->properties.push_back(
+        {name, transform, element.place, spelling_of(element, name)});
 }
 
 void Reader::read_animation(const Element& element, Unfinished& parent, Source& source) {

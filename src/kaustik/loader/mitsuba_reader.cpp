@@ -300,8 +300,8 @@ void Reader::scale_reflectances(Object& object) {
     if (!(most > 1)) continue;
     multiply_value(property.value, largest_reflectance / most);
     leave_out("reflectance",
-              fmt::format("'{}' is above 1, which makes light: it is scaled to {}", property.name,
-                          largest_reflectance),
+              fmt::format("'{}' is above 1, which makes light: it is scaled to {}",
+                          property.spelling(), largest_reflectance),
               property.place);
   }
 }

@@ -10,7 +10,8 @@
 
 namespace kaustik {
 
-/// Whether text begins as such a file does: with the tag <scene>, which comments may stand before.
+/// Whether text begins as such a file does: with the tag <scene>, which comments may stand before,
+/// and is none of Nori's, which have that tag too.
 bool is_mitsuba_xml(std::string_view head);
 
 /// Reads a scene file and what it includes, packed by gzip or not. Properties `filename` and

@@ -7,8 +7,13 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
+#include "kaustik/loader/gltf/gltf_scene.h"
 #include "kaustik/loader/gzip.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/nori_scene.h"
+#include "kaustik/loader/obj_scene.h"
+#include "kaustik/loader/pbrt_scene.h"
+#include "kaustik/loader/radiance/radiance_scene.h"
 
 namespace kaustik {
 namespace {
@@ -71,7 +76,12 @@ std::string head_of(const std::string& path) {
 
 const std::vector<SceneFormat>& scene_formats() {
   static const std::vector<SceneFormat> formats = {
-      {"Mitsuba XML", {".xml"}, is_mitsuba_xml, load_mitsuba_xml, parse_mitsuba_xml}};
+      {"Mitsuba XML", {".xml"}, is_mitsuba_xml, load_mitsuba_xml, parse_mitsuba_xml},
+      {"pbrt", {".pbrt"}, is_pbrt, load_pbrt, parse_pbrt},
+      {"glTF", {".gltf", ".glb"}, is_gltf, load_gltf, parse_gltf},
+      {"OBJ", {".obj"}, is_obj, load_obj_scene, parse_obj_scene},
+      {"Radiance", {".rad", ".rif", ".vf", ".oct"}, is_radiance, load_radiance, parse_radiance},
+      {"Nori XML", {".xml"}, is_nori, load_nori, parse_nori}};
   return formats;
 }
 

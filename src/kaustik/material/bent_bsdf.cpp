@@ -32,6 +32,9 @@ class BentBsdf final : public Bsdf {
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     return nested_->albedo(context, wo, lobes);
   }
+  Spectrum straight(const BsdfContext& context, const Vec3f& wo) const override {
+    return nested_->straight(context, wo);
+  }
 
  private:
   static BsdfTraits bent(BsdfTraits traits) {

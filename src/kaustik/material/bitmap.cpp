@@ -85,13 +85,19 @@ const TypeInfo& bitmap_info() {
                                      "Values left and right of the picture (u), as wrap_mode.")),
            optional(choice_parameter("wrap_mode_v", "repeat", wrap_names(),
                                      "Values above and below the picture (v), as wrap_mode.")),
-           text_parameter("channel", "",
-                          "Part of the picture: one channel (r, g, b, or a for opacity), or a "
-                          "layer or channel of an EXR by its name. All colours if absent."),
+           text_parameter(
+               "channel", "",
+               "Part of the picture: one channel (r, g, b, or a for opacity), or a "
+               "layer or channel of an EXR by its name; or 'number', opacity where it is "
+               "not 1 everywhere, else the mean of red, green and blue. All colours if "
+               "absent."),
            boolean_parameter(
                "raw", false,
                "Take stored values as linear numbers, for normals, roughness and the like."),
            gamma_parameter(),
+           boolean_parameter("invert", false, "Shows 1 minus each linear value, at least 0."),
+           number_parameter("power", 1, "Exponent of the linear values, after invert.")
+               .range(0.01, 100),
            transform_parameter("to_uv", "Transform of the coordinates before the lookup.")
                .leaving(0),
            ignored_parameter("format", ParameterKind::text),
@@ -154,8 +160,17 @@ std::shared_ptr<const Texture> create_bitmap(const TextureInputs& in) {
 
 Image bitmap_picture(const Arguments& arguments, PictureReader& pictures,
                      int64_t kept_bytes_per_pixel) {
-  return pictures.read(arguments, kept_bytes_per_pixel,
-                       {gamma_of_texels(arguments), arguments.text("channel")});
+  Image picture = pictures.read(arguments, kept_bytes_per_pixel,
+                                {gamma_of_texels(arguments), arguments.text("channel")});
+  const bool is_inverted = arguments.boolean("invert");
+  const double power = arguments.number("power");
+  if (!is_inverted && power == 1) return picture;
+  for (int c = 0; c < picture.channel_count(); ++c)
+    for (float& value : picture.channel(c)) {
+      const float shown = is_inverted ? std::max(1 - value, 0.0f) : value;
+      value = float(std::pow(double(shown), power));
+    }
+  return picture;
 }
 
 TextureType bitmap_type() { return {bitmap_info(), create_bitmap}; }

@@ -13,12 +13,14 @@ class BlendBsdf final : public Bsdf {
  public:
   BlendBsdf(std::shared_ptr<const Bsdf> first, std::shared_ptr<const Bsdf> second,
             std::shared_ptr<const Texture> weight)
-      : Bsdf({.lobes = first->traits().lobes | second->traits().lobes,
-              .transmits = first->traits().transmits || second->traits().transmits,
-              .is_lambertian = first->traits().is_lambertian && second->traits().is_lambertian,
-              .needs =
-                  first->traits().needs | second->traits().needs | texture_needs({weight.get()}),
-              .size = first->traits().size + second->traits().size + 1}),
+      : Bsdf(
+            {.lobes = first->traits().lobes | second->traits().lobes,
+             .transmits = first->traits().transmits || second->traits().transmits,
+             .passes_straight = first->traits().passes_straight || second->traits().passes_straight,
+             .is_lambertian = first->traits().is_lambertian && second->traits().is_lambertian,
+             .needs =
+                 first->traits().needs | second->traits().needs | texture_needs({weight.get()}),
+             .size = first->traits().size + second->traits().size + 1}),
         first_(std::move(first)),
         second_(std::move(second)),
         weight_(std::move(weight)),
@@ -47,6 +49,11 @@ class BlendBsdf final : public Bsdf {
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     const float w = weight(context);
     return first_->albedo(context, wo, lobes) * (1 - w) + second_->albedo(context, wo, lobes) * w;
+  }
+
+  Spectrum straight(const BsdfContext& context, const Vec3f& wo) const override {
+    const float w = weight(context);
+    return first_->straight(context, wo) * (1 - w) + second_->straight(context, wo) * w;
   }
 
  private:

@@ -50,6 +50,8 @@ struct BsdfTraits {
   /// Whether it is the boundary that light does not notice: paths and shadow rays go straight on,
   /// without an event. Such a bsdf has no lobes.
   bool is_null = false;
+  /// Whether Bsdf::straight() may be more than nothing.
+  bool passes_straight = false;
   /// Whether the diffuse lobe has one value for all pairs of directions on each side (Lambert).
   bool is_lambertian = true;
   SurfaceNeeds needs = SurfaceNeeds::none;  ///< of the surface, beside directions
@@ -170,6 +172,12 @@ class Bsdf {
   /// f, 1/sr, without the cosine.
   virtual Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                         Lobes lobes) const = 0;
+  /// Share of the light along wo that goes straight on, as if there were no surface: through holes
+  /// and thin panes. It is no event, so shadow rays see it, and all other answers leave it out.
+  virtual Spectrum straight(const BsdfContext& context, const Vec3f& wo) const {
+    (void)context, (void)wo;
+    return Spectrum();
+  }
   /// What bends the normal of the side that is seen (`front`: the one that the geometric normal
   /// points to); null: nothing.
   virtual const Relief* relief(bool front) const {

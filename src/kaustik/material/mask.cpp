@@ -7,15 +7,18 @@ namespace {
 
 class Mask final : public Bsdf {
  public:
-  Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity)
-      : Bsdf({.lobes = nested->traits().lobes | Lobes::delta,
+  Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity,
+       std::optional<float> cutoff)
+      : Bsdf({.lobes = nested->traits().lobes,
               .transmits = nested->traits().transmits || !opacity->is_constant() ||
-                           opacity->mean().max_lane() < 1,
+                           opacity->mean().max_lane() < cutoff.value_or(1),
+              .passes_straight = true,
               .is_lambertian = nested->traits().is_lambertian,
               .needs = nested->traits().needs | texture_needs({opacity.get()}),
               .size = nested->traits().size + 1}),
         nested_(std::move(nested)),
-        opacity_(std::move(opacity)) {}
+        opacity_(std::move(opacity)),
+        cutoff_(cutoff) {}
 
   const Relief* relief(bool front) const override { return nested_->relief(front); }
 
@@ -26,33 +29,25 @@ class Mask final : public Bsdf {
 
   float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
             Lobes lobes) const override {
-    return nested_->pdf(context, wo, wi, lobes) * nested_chance(context, lobes);
+    return nested_->pdf(context, wo, wi, lobes);
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
-    const float chance = nested_chance(context, lobes), share = opacity(context);
-    BsdfSample sample;
-    if (u_lobe < chance) {
-      sample = nested_->sample(context, wo, u_lobe / chance, u, lobes);
-      sample.weight *= share / chance;
-      sample.pdf_solid_angle *= chance;
-      return sample;
-    }
-    if (!any(lobes & Lobes::delta) || !(share < 1)) return sample;
-    sample.wi = -wo;
-    sample.weight = clear(context) * ((1 - share) / (1 - chance));
-    sample.pdf_solid_angle = 1 - chance;
-    sample.event = Lobes::delta;
-    sample.transmission = true;
+    BsdfSample sample = nested_->sample(context, wo, u_lobe, u, lobes);
+    sample.weight *= opacity(context);
     return sample;
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
+    return nested_->albedo(context, wo, lobes) * opacity(context);
+  }
+
+  Spectrum straight(const BsdfContext& context, const Vec3f& wo) const override {
     const float share = opacity(context);
-    Spectrum sum = nested_->albedo(context, wo, lobes) * share;
-    if (any(lobes & Lobes::delta)) sum += clear(context) * (1 - share);
-    return sum;
+    const Spectrum nested =
+        nested_->traits().is_null ? clear(context) : nested_->straight(context, wo);
+    return clear(context) * (1 - share) + nested * share;
   }
 
  private:
@@ -62,39 +57,44 @@ class Mask final : public Bsdf {
   }
   /// What a texture says beyond 1 is 1.
   float opacity(const BsdfContext& context) const {
-    return std::clamp(context.scalar_of(*opacity_), 0.0f, 1.0f);
-  }
-  /// With which sample() asks the nested bsdf: the opacity, but certain where holes don't count.
-  float nested_chance(const BsdfContext& context, Lobes lobes) const {
-    if (!any(lobes & nested_->traits().lobes)) return 0;
-    return any(lobes & Lobes::delta) ? opacity(context) : 1.0f;
+    const float given = context.scalar_of(*opacity_);
+    if (cutoff_) return given >= *cutoff_ ? 1.0f : 0.0f;
+    return std::clamp(given, 0.0f, 1.0f);
   }
 
   std::shared_ptr<const Bsdf> nested_;
   std::shared_ptr<const Texture> opacity_;
+  std::optional<float> cutoff_;
 };
 
 const TypeInfo& mask_info() {
   static const TypeInfo info{
       "bsdf",
       "mask",
-      "Cuts holes into the nested bsdf. Light through a hole counts as passing clear glass.",
+      "Cuts holes into the nested bsdf. Light goes through them as if there were no surface.",
       {number_parameter("opacity", 0.5, "Fraction of the surface that exists.")
            .range(0, 1)
            .clamped()
-           .textured()}};
+           .textured(),
+       optional(number_parameter("cutoff", 0.5,
+                                 "What has at least this opacity is there, all else is not: holes "
+                                 "with sharp edges."))
+           .range(0, 1)}};
   return info;
 }
 
 std::shared_ptr<const Bsdf> create_mask(const BsdfInputs& inputs) {
-  return make_mask(with_lobe(inputs.nested.front()), inputs.texture("opacity"));
+  std::optional<float> cutoff;
+  if (inputs.arguments.given("cutoff")) cutoff = float(inputs.arguments.number("cutoff"));
+  return make_mask(with_lobe(inputs.nested.front()), inputs.texture("opacity"), cutoff);
 }
 
 }  // namespace
 
 std::shared_ptr<const Bsdf> make_mask(std::shared_ptr<const Bsdf> nested,
-                                      std::shared_ptr<const Texture> opacity) {
-  return std::make_shared<Mask>(std::move(nested), std::move(opacity));
+                                      std::shared_ptr<const Texture> opacity,
+                                      std::optional<float> cutoff) {
+  return std::make_shared<Mask>(std::move(nested), std::move(opacity), cutoff);
 }
 
 std::shared_ptr<const Bsdf> with_lobe(std::shared_ptr<const Bsdf> bsdf) {

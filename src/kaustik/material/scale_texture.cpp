@@ -3,32 +3,35 @@
 namespace kaustik {
 namespace {
 
-/// A texture times a colour.
+/// A texture times another one, which is mostly a constant.
 class ScaleTexture final : public Texture {
  public:
-  ScaleTexture(std::shared_ptr<const Texture> value, const SpectralValue& scale)
-      : value_(std::move(value)), scale_(scale), scalar_(luminance_of(scale.rgb())) {}
+  ScaleTexture(std::shared_ptr<const Texture> value, std::shared_ptr<const Texture> scale)
+      : value_(std::move(value)), scale_(std::move(scale)) {}
 
   Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
-    return value_->eval(at, wavelengths) * scale_.at(wavelengths);
+    return value_->eval(at, wavelengths) * scale_->eval(at, wavelengths);
   }
-  float maximum() const override { return (rgb(value_->maximum()) * scale_.rgb()).max_lane(); }
+  float maximum() const override { return value_->maximum() * scale_->maximum(); }
   float aspect() const override { return value_->aspect(); }
   Vec2i resolution() const override { return value_->resolution(); }
-  bool is_constant() const override { return value_->is_constant(); }
-  Spectrum mean() const override { return value_->mean() * scale_.rgb(); }
+  bool is_constant() const override { return value_->is_constant() && scale_->is_constant(); }
+  /// As if where the one is bright said nothing of the other.
+  Spectrum mean() const override { return value_->mean() * scale_->mean(); }
   HeightGradient height_gradient(const TextureCoordinates& at) const override {
     const HeightGradient own = value_->height_gradient(at);
-    return {own.uv * scalar_, own.position * scalar_};
+    const float scale = scale_->scalar(at);
+    if (scale_->is_constant()) return {own.uv * scale, own.position * scale};
+    const HeightGradient other = scale_->height_gradient(at);
+    const float value = value_->scalar(at);
+    return {own.uv * scale + other.uv * value, own.position * scale + other.position * value};
   }
-  int size() const override { return 1 + value_->size(); }
+  int size() const override {
+    return 1 + value_->size() + (scale_->is_constant() ? 0 : scale_->size());
+  }
 
  private:
-  static Spectrum rgb(float all) { return spectrum_from_rgb(all, all, all); }
-
-  std::shared_ptr<const Texture> value_;
-  SpectralValue scale_;
-  float scalar_;
+  std::shared_ptr<const Texture> value_, scale_;
 };
 
 const TypeInfo& scale_info() {
@@ -41,7 +44,8 @@ const TypeInfo& scale_info() {
            .range(0, 1e6)
            .textured(),
        color_parameter("scale", 1, "Factor. Heights are multiplied by its luminance.")
-           .range(0, 1e6)}};
+           .range(0, 1e6)
+           .textured()}};
   return info;
 }
 
@@ -50,8 +54,7 @@ std::shared_ptr<const Texture> create_scale(const TextureInputs& in) {
   if (!value)
     throw Error(ErrorKind::input, "texture 'scale' has nothing to multiply",
                 "put a texture into it, or give it a 'value'", in.arguments.place());
-  return std::make_shared<ScaleTexture>(std::move(value),
-                                        SpectralValue::reflectance(in.arguments.color("scale")));
+  return std::make_shared<ScaleTexture>(std::move(value), in.texture("scale"));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ class ThinDielectric final : public Bsdf {
                  std::shared_ptr<const Texture> transmittance)
       : Bsdf({.lobes = Lobes::delta,
               .transmits = true,
+              .passes_straight = true,
               .needs = texture_needs({reflectance.get(), transmittance.get()})}),
         interior_(interior),
         exterior_(exterior),
@@ -26,29 +27,22 @@ class ThinDielectric final : public Bsdf {
   }
   float pdf(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return 0; }
 
-  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f&,
+  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f&,
                     Lobes lobes) const override {
     if (!any(lobes & Lobes::delta) || wo.z == 0) return {};
-    const Parts parts = parts_at(context, wo);
-    const float back = parts.reflected.max_lane(), through = parts.transmitted.max_lane();
-    if (!(back + through > 0)) return {};
-    const float chance = back / (back + through);
-    if (u_lobe < chance)
-      return {.wi = {-wo.x, -wo.y, wo.z},
-              .weight = parts.reflected / chance,
-              .pdf_solid_angle = chance,
-              .event = Lobes::delta};
-    return {.wi = -wo,
-            .weight = parts.transmitted / (1 - chance),
-            .pdf_solid_angle = 1 - chance,
-            .event = Lobes::delta,
-            .transmission = true};
+    return {.wi = {-wo.x, -wo.y, wo.z},
+            .weight = parts_at(context, wo).reflected,
+            .pdf_solid_angle = 1,
+            .event = Lobes::delta};
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::delta) || wo.z == 0) return Spectrum();
-    const Parts parts = parts_at(context, wo);
-    return parts.reflected + parts.transmitted;
+    return parts_at(context, wo).reflected;
+  }
+
+  Spectrum straight(const BsdfContext& context, const Vec3f& wo) const override {
+    return wo.z == 0 ? Spectrum() : parts_at(context, wo).transmitted;
   }
 
  private:
@@ -72,9 +66,10 @@ class ThinDielectric final : public Bsdf {
 };
 
 const TypeInfo& thindielectric_info() {
-  static const TypeInfo info{"bsdf", "thindielectric",
-                             "Thin pane of glass. Light goes straight through.",
-                             dielectric_parameters()};
+  static const TypeInfo info{
+      "bsdf", "thindielectric",
+      "Thin pane of glass. Light goes straight through it, and lamps shine through it directly.",
+      dielectric_parameters()};
   return info;
 }
 

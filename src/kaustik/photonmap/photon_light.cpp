@@ -196,7 +196,7 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     distance += hit.t;
     return found;
   };
-  while (travel(scene_, state, ray, vertex, rays, go_on)) {
+  while (travel(scene_, state, ray, vertex, rays, sampler, go_on)) {
     if (state.depth == 0) result.distance = distance;
     sampler.start_vertex(uint32_t(state.depth));
     const EyeLevel level{at.recursion + 1 + state.depth, at.gathers + 1};

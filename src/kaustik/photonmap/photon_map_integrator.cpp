@@ -81,9 +81,10 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
     : IlluminationModel(scene), settings_(arguments) {
   traits_.components = settings_.components;
   traits_.default_samples_per_pass = settings_.samples_per_pass;
-  if (scene.has_media() && settings_.shadow_photons > 0)
+  if ((scene.has_media() || scene.passes_straight()) && settings_.shadow_photons > 0)
     throw Error(ErrorKind::input,
-                "shadow photons know nothing of media and null boundaries, and the scene has some",
+                "shadow photons know nothing of media, null boundaries, holes and thin panes, and "
+                "the scene has some",
                 "set 'shadow_photons' to 0", arguments.place_of("shadow_photons"));
   if (settings_.photon_file.empty()) return;
   StoredPhotons stored = read_photon_file(settings_.photon_file);

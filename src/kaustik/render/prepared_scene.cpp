@@ -9,6 +9,7 @@
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/render/scene_warnings.h"
 #include "kaustik/render/session.h"
+#include "kaustik/scene/deviation_report.h"
 #include "kaustik/scene/mesh_memory.h"
 
 namespace kaustik {
@@ -61,6 +62,8 @@ std::shared_ptr<const Scene> build_scene_and_tell(const Description& description
                                                   const std::shared_ptr<const Scene>& previous) {
   tell_of_memory(description, messages);
   auto scene = build_scene(description, previous, build);
+  if (const std::string deviations = deviation_summary(description); !deviations.empty())
+    messages.warn(deviations);
   for (const std::string& warning : scene_warnings(*scene)) messages.warn(warning);
   return scene;
 }

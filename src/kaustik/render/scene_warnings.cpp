@@ -23,7 +23,7 @@ constexpr int most_lamps = 64;
 
 /// Light goes through it straight or bent, but by nothing that can be sampled toward a lamp.
 bool is_clear(const Surface& surface) {
-  return !surface.traits.is_null && surface.traits.transmits &&
+  return !surface.lets_pass() && surface.traits.transmits &&
          any(surface.traits.lobes & Lobes::delta);
 }
 
@@ -80,7 +80,7 @@ const Surface* clear_surface_before(const Scene& scene, const SurfacePoint& poin
       [&](const SurfacePoint& met, const Hit&, const Ray&) {
         const Surface& surface = scene.surface(met.shape);
         if (is_clear(surface)) clear = &surface;
-        return !is_clear(surface) && !surface.traits.is_null;
+        return !is_clear(surface) && !surface.lets_pass();
       },
       [&](const SurfacePoint& passed, const Hit&, Ray& ray) {
         ray = toward_lamp(passed);

@@ -15,7 +15,6 @@
 namespace kaustik {
 namespace {
 
-constexpr uint32_t default_passes = 16;
 /// Fewer tell too little of the error.
 constexpr uint32_t least_passes = 4;
 /// A pass that takes more than the integrator's default samples takes no more than that times this,

@@ -30,6 +30,8 @@ struct RegionProgress {
 
 /// At most so many passes are asked for at a time.
 inline constexpr uint32_t most_region_passes = 4096;
+/// Where nobody says how far to go, each with the integrator's default samples.
+inline constexpr uint32_t default_passes = 16;
 
 /// How a session goes about its passes.
 struct SessionSettings {

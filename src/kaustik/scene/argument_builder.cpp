@@ -113,8 +113,8 @@ std::vector<Property> SceneBuilder::within_ranges(const TypeInfo& info,
     const double taken = std::clamp(given, row->minimum, row->maximum);
     if (taken == given || !std::isfinite(given)) continue;
     property.value = taken;
-    unknown_.add(fmt::format("'{}' of {} '{}' is beyond its range: {:g} is taken", property.name,
-                             info.family, info.name, taken),
+    unknown_.add(fmt::format("'{}' of {} '{}' is beyond its range: {:g} is taken",
+                             property.spelling(), info.family, info.name, taken),
                  property.place);
   }
   return properties;
@@ -126,8 +126,8 @@ Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object)
       info,
       is_strict_ ? properties : within_ranges(info, unknown_.without_unknown(info, properties)),
       object.place, problems_);
-  for (const std::string& name : arguments.ignored())
-    ignored_.insert(fmt::format("'{}' of {} '{}'", name, info.family, info.name));
+  for (const Property& property : arguments.ignored())
+    ignore(property, fmt::format("{} '{}'", info.family, info.name));
   return arguments;
 }
 

@@ -67,6 +67,9 @@ struct CameraTraits {
   bool repeats = false;     ///< see Camera::visit_repetitions()
   float weight = 1;         ///< that a ray's radiance counts with
   bool measures_irradiance = false;  ///< then that weight is π, and pixels are irradiances
+  /// Of a meter: "lx" or "cd/m²", what its pixels are times lumens_per_watt_white; "": it takes a
+  /// picture.
+  std::string meter_unit;
   /// Each pixel measures something of its own: nothing is filtered or learned across pixels. The
   /// picture has this size, then; 0: pixels are those of a picture.
   Vec2i size_of_pixels_apart{0, 0};

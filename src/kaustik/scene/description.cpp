@@ -48,6 +48,18 @@ std::shared_ptr<Object> copied(const std::shared_ptr<Object>& object, Copies& co
 
 }  // namespace
 
+std::string_view name_of(DeviationKind kind) {
+  switch (kind) {
+    case DeviationKind::approximated:
+      return "approximated";
+    case DeviationKind::ignored:
+      return "ignored";
+    case DeviationKind::missing:
+      return "missing";
+  }
+  return "";
+}
+
 Description copy_of(const Description& description) {
   Copies copies;
   Description copy = description;

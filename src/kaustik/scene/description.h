@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kaustik/base/parameters.h"
@@ -35,6 +36,24 @@ struct Object {
 /// numbers at the end count as numbers. Those without a name come first, in the order of the file.
 std::vector<const Child*> ordered_children(const Object& object, const std::string& family);
 
+/// How a reader deviated from what a file says.
+enum class DeviationKind {
+  approximated,  ///< the nearest that there is stands for it
+  ignored,       ///< it is left out
+  missing,       ///< a file is not there; a stand-in is seen in the picture
+};
+
+/// "approximated", "ignored", "missing".
+std::string_view name_of(DeviationKind kind);
+
+/// Something in a file that is not rendered as it is written.
+struct Deviation {
+  DeviationKind kind;
+  std::string object;  ///< in terms of the file: "material 'glass'"
+  std::string what;    ///< a sentence without a full stop
+  Place place;
+};
+
 /// A whole scene as it was described; file names in it are already relative to the working folder
 /// or absolute.
 struct Description {
@@ -43,6 +62,8 @@ struct Description {
   std::vector<std::string> sources = {};
   /// What the loader has left out, for the user.
   std::vector<std::string> warnings = {};
+  /// Where the loader deviated from the file, in the order of the file.
+  std::vector<Deviation> deviations = {};
   /// Whether what no table knows is an error, where otherwise it is left out and told.
   bool is_strict = false;
 };

@@ -12,6 +12,7 @@ class FluenceMeter final : public Camera {
   explicit FluenceMeter(const CameraInputs& inputs) {
     traits_.position = inputs.arguments.transform("to_world").point({0, 0, 0});
     traits_.view = "measures the mean radiance at a point";
+    traits_.meter_unit = "cd/m²";
     traits_.has_ways = true;
     traits_.can_connect = false;
     // No pixel: a cone so narrow that what is filtered by it, or merges within, hardly changes.

@@ -20,6 +20,7 @@ class IrradianceMeter final : public Camera {
       : shape_(inputs.shape), is_passed_(inputs.shape_is_passed) {
     traits_.position = center(shape_->bounds());
     traits_.view = "measures the irradiance of a shape";
+    traits_.meter_unit = "lx";
     traits_.has_lens = true;
     traits_.can_connect = false;
     if (is_passed_) {

@@ -3,6 +3,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/warp.h"
+#include "kaustik/scene/look_through.h"
 
 namespace kaustik {
 namespace {
@@ -10,6 +11,8 @@ namespace {
 /// Shadow rays in all, bounds on the number of probes that they are spent at, and on a path.
 constexpr size_t wanted_rays = 200000, least_probes = 4096, most_probes = 16384;
 constexpr size_t probes_per_path = 4;
+/// Surfaces that a shadow ray may go straight on through.
+constexpr int most_layers = 16;
 
 class LightProbing {
  public:
@@ -90,7 +93,24 @@ class LightProbing {
         : std::isfinite(sample.distance)
             ? spawn_ray_to(point, point.position + sample.direction * sample.distance)
             : spawn_ray(point, sample.direction);
-    return scene_.tracer().occluded(shadow) ? 0.0f : arriving;
+    return is_hidden(shadow) ? 0.0f : arriving;
+  }
+
+  /// By what lets nothing go straight on.
+  bool is_hidden(const Ray& shadow) const {
+    if (!scene_.passes_straight()) return scene_.tracer().occluded(shadow);
+    const auto pass = [](const SurfacePoint& point, const Hit& hit, Ray& ray) {
+      if (!std::isfinite(ray.t_max)) return straight_on(point, hit, ray);
+      ray = spawn_ray_to(point, ray.origin + ray.direction * ray.t_max);
+      return true;
+    };
+    return look_through(
+               scene_, shadow, most_layers,
+               [&](const Ray& ray, Hit& hit) { return scene_.tracer().intersect(ray, hit); },
+               [&](const SurfacePoint& point, const Hit&, const Ray&) {
+                 return !scene_.surface(point.shape).lets_pass();
+               },
+               pass) != Look::free;
   }
 
   const Scene& scene_;

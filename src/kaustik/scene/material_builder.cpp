@@ -64,7 +64,8 @@ bool SceneBuilder::leaves_out_texture(const Object& object, const TypeInfo& info
   if (is_strict_) return false;
   const Parameter* row = info.find(child.name);
   if (row && row->no_effect) {
-    ignored_.insert(fmt::format("'{}' of {} '{}'", child.name, object.family, object.type));
+    ignore({child.name, {}, child.object->place},
+           fmt::format("{} '{}'", object.family, object.type));
     return true;
   }
   if (row && mean_instead_of(info, child)) return true;

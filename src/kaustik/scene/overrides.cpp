@@ -20,6 +20,20 @@ void collect(const std::shared_ptr<Object>& object, std::vector<std::shared_ptr<
   }
 }
 
+/// The film or the sampler that the scene's only camera, which has none, gets for a change; null:
+/// it is no such object, or there is not one camera.
+std::shared_ptr<Object> made_part_of_camera(const Description& description,
+                                            const std::string& name) {
+  const std::vector<std::shared_ptr<Object>> cameras = cameras_of(*description.scene);
+  if ((name != "film" && name != "sampler") || cameras.size() != 1) return nullptr;
+  auto object = std::make_shared<Object>();
+  object->family = name;
+  object->type = name == "film" ? "hdrfilm" : "independent";
+  object->place = cameras[0]->place;
+  cameras[0]->children.push_back({"", object});
+  return object;
+}
+
 std::shared_ptr<Object> find_object(Description& description, const std::string& name) {
   if (name == "integrator") return made_integrator(description);
   std::vector<std::shared_ptr<Object>> objects;
@@ -40,6 +54,7 @@ std::shared_ptr<Object> find_object(Description& description, const std::string&
     throw Error(ErrorKind::input,
                 fmt::format("the scene has {} objects '{}'", of_family.size(), name),
                 "give the one that you mean an id in the scene and use that");
+  if (auto made = made_part_of_camera(description, name)) return made;
   throw Error(ErrorKind::input, fmt::format("the scene has no object '{}'", name),
               suggest(name, names));
 }

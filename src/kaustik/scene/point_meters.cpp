@@ -128,6 +128,7 @@ class IrradiancePoints final : public Camera {
     traits_.position = middle_of(list);
     traits_.view =
         fmt::format("measures irradiance at {} point{}", list.size(), list.size() == 1 ? "" : "s");
+    traits_.meter_unit = "lx";
     traits_.has_ways = true;
     traits_.can_connect = false;
     traits_.weight = pi;
@@ -160,6 +161,7 @@ class RadianceRays final : public Camera {
     traits_.position = middle_of(rays_);
     traits_.view = fmt::format("measures the radiance along {} ray{}", rays_.size(),
                                rays_.size() == 1 ? "" : "s");
+    traits_.meter_unit = "cd/m²";
     traits_.can_connect = false;
     traits_.size_of_pixels_apart = pixels_.size();
     // As the radiancemeter's.

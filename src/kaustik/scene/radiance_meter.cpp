@@ -18,6 +18,7 @@ class RadianceMeter final : public Camera {
                            ? Vec3f(arguments.point("origin"))
                            : arguments.transform("to_world").point({0, 0, 0});
     traits_.view = "measures the radiance along a ray";
+    traits_.meter_unit = "cd/m²";
     // No pixel: a cone so narrow that what is filtered by it, or merges within, hardly changes.
     constexpr float half_angle = 4e-4f;
     traits_.pixel_spread = half_angle;

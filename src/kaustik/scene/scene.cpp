@@ -33,9 +33,9 @@ std::string Scene::light_name(size_t light) const {
 void Scene::find_hidden_surfaces() {
   const std::span<const BodyPart> parts = tracer().body_parts();
   if (parts.empty()) return;
-  for (const Surface& surface : parts_.surfaces) may_be_null_.push_back(surface.traits.is_null);
+  for (const Surface& surface : parts_.surfaces) may_let_pass_.push_back(surface.lets_pass());
   for (size_t i = 0; i < parts.size(); ++i)
-    may_be_null_[parts[i].shape] |= may_be_null_[tracer().shape_count() + i];
+    may_let_pass_[parts[i].shape] |= may_let_pass_[tracer().shape_count() + i];
 }
 
 void Scene::make_light_selector(const Scene* previous) {
@@ -57,7 +57,7 @@ void Scene::make_light_selector(const Scene* previous) {
 /// Whether probe_lights() would learn the same of the same lights.
 bool Scene::probes_lights_like(const Scene& other) const {
   const auto lets_through_alike = [](const Surface& a, const Surface& b) {
-    return a.traits.is_null == b.traits.is_null && a.traits.transmits == b.traits.transmits;
+    return a.lets_pass() == b.lets_pass() && a.traits.transmits == b.traits.transmits;
   };
   return parts_.camera && other.parts_.camera && parts_.built.sensor != 0 &&
          parts_.built.sensor == other.parts_.built.sensor &&
@@ -78,6 +78,7 @@ void Scene::find_media() {
     see(surface.exterior);
     separated |= surface.separates_media();
     has_media_ |= surface.traits.is_null;
+    passes_straight_ |= surface.traits.passes_straight;
   }
   parts_.light_media.resize(parts_.lights.size());
   for (const auto& medium : parts_.light_media) see(medium);

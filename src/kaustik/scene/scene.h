@@ -35,6 +35,8 @@ struct Surface {
     if (!separates_media()) return arrived;
     return outside ? exterior.get() : interior.get();
   }
+  /// Whether light may go straight on through it, all or a part.
+  bool lets_pass() const { return traits.is_null || traits.passes_straight; }
 };
 
 /// A gauge of the camera where it stands in the scene.
@@ -93,10 +95,11 @@ class Scene {
   const RayTracer& tracer() const { return *parts_.tracer; }
   /// Of a SurfacePoint's `shape`.
   const Surface& surface(uint32_t shape) const { return parts_.surfaces[shape]; }
-  /// Whether what a ray has hit, Hit::shape, may be no more than a boundary of media, or nothing at
-  /// all: a body's surface may be hidden there. Its point tells.
-  bool may_be_null(uint32_t shape) const {
-    return may_be_null_.empty() ? surface(shape).traits.is_null : may_be_null_[shape] != 0;
+  /// Whether light may go straight on through what a ray has hit, Hit::shape: it is no more than a
+  /// boundary of media, or passes a part, or is nothing at all, where a body's surface is hidden.
+  /// Its point tells.
+  bool may_let_pass(uint32_t shape) const {
+    return may_let_pass_.empty() ? surface(shape).lets_pass() : may_let_pass_[shape] != 0;
   }
   size_t surface_count() const { return parts_.surfaces.size(); }
   const std::vector<std::shared_ptr<const Light>>& lights() const { return parts_.lights; }
@@ -127,6 +130,8 @@ class Scene {
   /// Whether there is any medium or null boundary. Without them every segment ends at a surface,
   /// and light on it keeps its strength.
   bool has_media() const { return has_media_; }
+  /// Whether there are surfaces through which a part of the light goes straight on.
+  bool passes_straight() const { return passes_straight_; }
   /// Whether any medium scatters light.
   bool has_scattering() const { return has_scattering_; }
   /// Around the camera; null: vacuum.
@@ -149,9 +154,9 @@ class Scene {
   std::shared_ptr<const LightSelector> light_selector_;
   std::vector<int> environment_lights_;
   bool has_media_ = false, has_scattering_ = false, has_lights_to_meet_ = false;
-  bool hides_lights_ = false;
+  bool hides_lights_ = false, passes_straight_ = false;
   std::vector<const Medium*> light_media_;  ///< parallel to the lights
-  std::vector<uint8_t> may_be_null_;        ///< by shape; empty: as its surface says
+  std::vector<uint8_t> may_let_pass_;       ///< by shape; empty: as its surface says
   std::vector<PlacedGauge> gauges_;
 };
 

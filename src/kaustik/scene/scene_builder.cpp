@@ -117,6 +117,11 @@ void SceneBuilder::leave_out_flat(const Object& shape) {
     unknown_.add(message + ": it is left out", shape.place);
 }
 
+void SceneBuilder::ignore(const Property& property, const std::string& object) {
+  const std::string text = name_and_place(property, object);
+  ignored_.try_emplace(fmt::format("'{}' of {}", property.spelling(), object), text);
+}
+
 void SceneBuilder::told_unless_strict(const std::string& message, const std::string& remedy,
                                       const Place& place) {
   if (is_strict_)
@@ -182,8 +187,11 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.hidden_lights = std::move(hidden_lights_);
   parts.light_names = std::move(light_names_);
   parts.warnings = std::move(warnings_);
-  if (!ignored_.empty())
-    parts.warnings.push_back(fmt::format("without effect here: {}", fmt::join(ignored_, ", ")));
+  if (!ignored_.empty()) {
+    std::vector<std::string> names;
+    for (const auto& [name, text] : ignored_) names.push_back(text);
+    parts.warnings.push_back(without_effect(names));
+  }
   for (std::string& warning : unknown_.warnings()) parts.warnings.push_back(std::move(warning));
   parts.warnings.insert(parts.warnings.end(), pictures_.warnings().begin(),
                         pictures_.warnings().end());

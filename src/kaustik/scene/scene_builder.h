@@ -193,6 +193,8 @@ class SceneBuilder {
   /// warning that another type stands for it.
   void use_instead(const Object& object, const std::vector<std::string>& valid,
                    const std::string& instead);
+  /// A parameter of `object` ("film 'hdrfilm'") that has no effect; told once.
+  void ignore(const Property& property, const std::string& object);
   /// Runs `body` and turns what it throws into problems; those without a place get `place`, those
   /// in another file tell that it was named there.
   void collecting(const Place& place, const std::function<void()>& body);
@@ -211,8 +213,8 @@ class SceneBuilder {
   std::vector<std::string> warnings_;
   bool is_strict_;  ///< Description::is_strict
   UnknownParameters unknown_;
-  std::set<const Object*> left_out_;  ///< of types that nobody knows
-  std::set<std::string> ignored_;     ///< parameters that have no effect
+  std::set<const Object*> left_out_;            ///< of types that nobody knows
+  std::map<std::string, std::string> ignored_;  ///< without effect: what it is, and its text
   std::set<std::string> remarks_reported_;
   std::set<std::string> emitters_of_shapes_;  ///< their ids
   std::vector<BuiltShape> shapes_;

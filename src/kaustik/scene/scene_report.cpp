@@ -24,6 +24,7 @@ float largest_albedo(const Bsdf& bsdf) {
 /// What the camera sees, over a grid of the picture.
 struct View {
   int rays = 0, hits = 0;
+  int media = 0;             ///< whose boundaries are met: they are seen where no surface is
   int black_backs = 0;       ///< hits of the unlit inner side of opaque surfaces
   float nearest = infinity;  ///< of the hits
   uint32_t nearest_shape = 0;
@@ -53,7 +54,10 @@ View look_around(const Scene& scene) {
       probe_through(scene, ray, most_boundaries,
                     [&](const SurfacePoint& point, const Hit& hit, const Ray& segment) {
                       const Surface& surface = scene.surface(point.shape);
-                      if (surface.traits.is_null) return false;
+                      if (surface.traits.is_null) {
+                        if (surface.interior || surface.exterior) ++view.media;
+                        return false;
+                      }
                       ++view.hits;
                       if (dot(point.ng, segment.direction) > 0 && is_black_from_behind(surface))
                         ++view.black_backs;
@@ -83,7 +87,7 @@ void describe_view(const Scene& scene, SceneReport& report) {
                   scene.quantity() == Quantity::irradiance ? " of irradiance" : ""));
   if (scene.surface_count() == 0)
     report.warnings.push_back("the scene has no shape: only what is behind it can be seen");
-  else if (view.hits == 0)
+  else if (view.hits == 0 && view.media == 0)
     report.warnings.push_back("the camera sees no shape: check its to_world");
   const float extent = length(scene.tracer().bounds().max - scene.tracer().bounds().min);
   // Meters look from within the scene, from wherever they are told to.

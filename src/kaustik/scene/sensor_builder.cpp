@@ -52,7 +52,7 @@ void SceneBuilder::make_film_of_pixels_apart(const Object& object) {
   for (const Property& property : object.properties)
     if (property.name == "width" || property.name == "height" || property.name == "quantity" ||
         property.name.starts_with("crop_"))
-      ignored_.insert(fmt::format("'{}' of the film of such a sensor", property.name));
+      ignore(property, "the film of such a sensor");
 }
 
 const Object* SceneBuilder::only_child(const Object& object, const std::string& family) {
@@ -121,7 +121,7 @@ bool SceneBuilder::leaves_out_response(const Object& sensor) {
   for (const Child& child : sensor.children)
     if (child.object->family == "texture") textures.push_back(&child);
   if (textures.size() != 1 || textures[0]->name != "srf") return false;
-  ignored_.insert(fmt::format("'srf' of sensor '{}'", sensor.type));
+  ignore({"srf", {}, textures[0]->object->place}, fmt::format("sensor '{}'", sensor.type));
   return true;
 }
 
@@ -147,7 +147,8 @@ Object SceneBuilder::without_bands(const Object& film, const TypeInfo& info) {
   const size_t objects = std::erase_if(plain.children, [](const Child& child) {
     return spectrum_type_of(*child.object) != nullptr;
   });
-  if (bands + objects > 0) ignored_.insert("the bands of film 'specfilm'");
+  const std::string what = "the bands of film 'specfilm'";
+  if (bands + objects > 0) ignored_.try_emplace(what, what);
   return plain;
 }
 

@@ -17,12 +17,11 @@ const Parameter* texture_parameter(const TypeInfo& info, const std::string& name
   for (const Parameter& row : info.parameters) {
     if (!row.accepts_texture) continue;
     if (row.name == name) return &row;
+    if (!std::holds_alternative<std::monostate>(row.default_value)) continue;
     only = &row;
     ++count;
   }
-  const bool is_free =
-      count == 1 && std::holds_alternative<std::monostate>(only->default_value) && !info.find(name);
-  return is_free ? only : nullptr;
+  return count == 1 && !info.find(name) ? only : nullptr;
 }
 
 }  // namespace kaustik

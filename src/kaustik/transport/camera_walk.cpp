@@ -1,7 +1,6 @@
 #include "kaustik/transport/camera_walk.h"
 
 #include "kaustik/transport/roulette.h"
-#include "kaustik/transport/travel.h"
 
 namespace kaustik {
 namespace {
@@ -19,9 +18,9 @@ Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes 
          mis_weight(light.pdf_solid_angle, lobe_probability * vertex.pdf(light.wi, lobes));
 }
 
-/// Or a boundary, behind which there may be one.
+/// Or a surface that light may pass, behind which there may be one.
 bool may_be_lamp(const Scene& scene, uint32_t shape) {
-  return scene.surface(shape).light >= 0 || scene.may_be_null(shape);
+  return scene.surface(shape).light >= 0 || scene.may_let_pass(shape);
 }
 
 /// What the classes of lobes of a vertex send back of direct light.
@@ -88,6 +87,8 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       is_in_medium_(other.is_in_medium_),
       previous_(other.previous_),
       distance_(other.distance_),
+      straight_chance_(other.straight_chance_),
+      waits_at_straight_(other.waits_at_straight_),
       only_delta_(other.only_delta_),
       segments_(other.segments_) {}
 
@@ -135,19 +136,35 @@ CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& 
     distance_ += hit.t;
     return !meets_lamps_only_ || may_be_lamp(scene_, hit.shape);
   };
-  for (int lamp = 0;; ++lamp) {
-    if (!travel(scene_, state_, ray_, vertex_, rays_, go_on))
-      return is_in_medium_ && !meets_lamps_only_ ? Arrival::medium : Arrival::nothing;
-    if (!looks_through()) break;
-    if (lamp == most_null_boundaries) return Arrival::nothing;
-    pass_boundary(vertex_, state_, ray_);
-  }
+  straight_chance_ = 0;
+  if (!travel(scene_, state_, ray_, vertex_, rays_, sampler_, go_on,
+              [this](const SurfaceVertex& vertex) { return passing(vertex); }))
+    return is_in_medium_ && !meets_lamps_only_ ? Arrival::medium : Arrival::nothing;
   if (only_delta_) describe_what_is_seen(vertex_, distance_);
   if (only_arrives)
     vertex_.paint_white();
   else if (vertex_.light() >= 0)
     add_emission(weights);
   return meets_lamps_only_ ? Arrival::nothing : Arrival::surface;
+}
+
+Passing CameraWalk::passing(const SurfaceVertex& vertex) {
+  if (looks_through(vertex)) return Passing::always;
+  if (seeks_irradiance()) return Passing::never;
+  if (!waits_at_straight_ || !vertex.passes_straight()) return Passing::by_chance;
+  const float chance = passing_chance(vertex, vertex.straight());
+  if (chance == 0 || chance == 1) return Passing::by_chance;
+  straight_chance_ = chance;
+  return Passing::never;
+}
+
+// Roulette must not see that this is one of several branches.
+void CameraWalk::stay_at_surface() { state_.roulette_scale *= 1 / (1 - straight_chance_); }
+
+void CameraWalk::go_straight() {
+  state_.throughput *= vertex_.straight();
+  state_.roulette_scale *= 1 / straight_chance_;
+  pass_boundary(vertex_, state_, ray_);
 }
 
 bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {

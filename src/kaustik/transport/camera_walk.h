@@ -7,6 +7,7 @@
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
 #include "kaustik/transport/scatterer.h"
+#include "kaustik/transport/travel.h"
 #include "kaustik/transport/visibility.h"
 #include "kaustik/transport/visibility_estimator.h"
 #include "kaustik/transport/volume_light.h"
@@ -62,6 +63,15 @@ class CameraWalk {
   /// is add_medium_light() and scatter_in_medium() instead of what there is for surfaces.
   enum class Arrival { nothing, surface, medium };
   Arrival fly(const VolumeLight* volume = nullptr, LightWeights* weights = nullptr);
+  /// From now on the walk stays, if told so, at surfaces that light passes straight in part, and
+  /// does not choose: waits_at_straight().
+  void wait_at_straight(bool waits) { waits_at_straight_ = waits; }
+  /// With which chance others would go straight on where it has stayed for that, until it goes on;
+  /// 0: it has not. Two branches are to be followed then: one that stays …
+  float straight_chance() const { return straight_chance_; }
+  void stay_at_surface();
+  /// … and one that goes on behind the surface.
+  void go_straight();
   /// On its next way the walk meets lamps alone: where there is none, as beyond what it finds, it
   /// ends (Arrival::nothing), and nothing more is looked at. Media take their share as ever.
   void meet_lamps_only() { meets_lamps_only_ = true; }
@@ -140,6 +150,8 @@ class CameraWalk {
   /// What layers show of the surface that is seen, by this walk and its branches.
   const FirstHit& first_hit() const { return sink_.first_hit(); }
   void set_first_hit(const FirstHit& seen) { sink_.set_first_hit(seen); }
+  /// The walk changes it no more.
+  void keep_first_hit() { only_delta_ = false; }
   uint64_t& rays() { return rays_; }
   Work work() { return {rays_, sink_.scratch()}; }
 
@@ -199,11 +211,16 @@ class CameraWalk {
   Arrival arrive_at_gauge();
   void add_background(LightWeights* weights);
   void add_emission(LightWeights* weights);
-  /// Whether the camera looks through the surface that the walk has come to.
-  bool looks_through() const { return state_.depth == 0 && scene_.is_hidden(vertex_.light()); }
+  /// Whether the camera looks through a surface that the walk has come to.
+  bool looks_through(const SurfaceVertex& vertex) const {
+    return state_.depth == 0 && scene_.is_hidden(vertex.light());
+  }
   void describe_what_is_seen(const SurfaceVertex& vertex, float distance);
   template <typename PassMedium>
   Arrival arrive(LightWeights* weights, const PassMedium& pass_medium);
+
+  /// What becomes of the walk at a surface that it has come to.
+  Passing passing(const SurfaceVertex& vertex);
 
   const Scene& scene_;
   Sampler& sampler_;
@@ -224,7 +241,9 @@ class CameraWalk {
   bool meets_lamps_only_ = false;  ///< meet_lamps_only()
   LightQuery previous_;            ///< of where the last event was
   float distance_ = 0;
-  bool only_delta_ = true;  ///< every surface so far has delta lobes alone
+  float straight_chance_ = 0;       ///< straight_chance()
+  bool waits_at_straight_ = false;  ///< wait_at_straight()
+  bool only_delta_ = true;  ///< every surface so far has delta lobes alone: first_hit() is open
   uint32_t segments_ = 0;   ///< traced so far: those across null boundaries count, each has a block
                             ///< of random numbers
   uint64_t rays_ = 0;

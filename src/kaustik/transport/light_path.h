@@ -39,7 +39,7 @@ struct LightPath {
   Sampler sampler;
   Spectrum weight{1.0f};  ///< the throughput's share of what was emitted, but for what guiding and
                           ///< length_survival() make of it; roulette keeps it about 1
-  int boundaries = 0;     ///< null ones since the last event
+  int boundaries = 0;     ///< passed since the last event
   uint32_t segments = 0;  ///< traced so far: those across null boundaries count, each has a block
                           ///< of random numbers
   float distance = 0;     ///< from the last event to the origin of `ray`, m
@@ -124,6 +124,15 @@ struct LightPathCounts {
 /// and by length_survival(); shared by global, caustic and splatted light [Schregle 1998].
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPathLimits& limits,
                         LightPath& path);
+
+/// passes_by_chance() of a light path.
+inline bool passes_straight(const SurfaceVertex& vertex, LightPath& path) {
+  if (!vertex.passes_straight()) return false;
+  Spectrum factor(1);
+  const bool passes = passes_by_chance(vertex, factor, path.sampler);
+  path.attenuate(factor);
+  return passes;
+}
 
 /// The point of its segment through its medium where `path` is scattered by `flight`.
 LightMediumVertex medium_vertex(const LightPath& path, const Medium::Flight& flight);
@@ -224,7 +233,7 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
     path.state.footprint.travel(hit.t);
     vertex.meet(scene, path.ray, hit, path.state);
     path.distance += hit.t;
-    if (vertex.is_null()) {
+    if (vertex.is_null() || passes_straight(vertex, path)) {
       if (++path.boundaries > most_null_boundaries) return ended(counts.stopped);
       pass_boundary(vertex, path.state, path.ray);
       return true;

@@ -59,6 +59,9 @@ class SurfaceVertex {
   bool is_lambertian() const { return traits_.is_lambertian; }
   /// Whether paths go straight on, without an event (Bsdf::is_null).
   bool is_null() const { return surface_->traits.is_null; }
+  /// Of the light along wo that goes straight on; see Bsdf.
+  bool passes_straight() const { return traits_.passes_straight; }
+  Spectrum straight() const { return bsdf_->straight(context_, wo_local_); }
   /// What a path goes on through along `direction`, having arrived through `arrived`.
   const Medium* medium_toward(const Vec3f& direction, const Medium* arrived) const {
     return surface_->medium_toward(dot(direction, point_.ng) > 0, arrived);

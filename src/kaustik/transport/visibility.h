@@ -14,25 +14,30 @@ struct LightOnItsWay {
 /// Where a shadow ray leads: to the camera it passes hidden lamps, too (Scene::is_hidden).
 enum class ShadowRayTo { light, camera };
 
-/// Light left of what sets out through `medium` along the shadow ray `ray`, where the scene has
-/// media or hides lamps: null boundaries let it pass, media take their share, everything else
-/// blocks it (glass too: what it refracts goes elsewhere). Counts rays.
-Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* medium,
-                                     const LightOnItsWay& of, uint64_t& rays,
-                                     ShadowRayTo to = ShadowRayTo::light);
+/// Whether anything in the scene may do so.
+inline bool lets_shadow_rays_pass(const Scene& scene, ShadowRayTo to) {
+  return scene.has_media() || scene.passes_straight() ||
+         (to == ShadowRayTo::camera && scene.hides_lights());
+}
+
+/// Light left of what sets out through `medium` along the shadow ray `ray`, where something lets
+/// shadow rays pass: null boundaries do, and surfaces by their straight share; media take theirs;
+/// everything else blocks it (glass too: what it refracts goes elsewhere). Counts rays.
+Spectrum transmittance_on_way(const Scene& scene, const Ray& ray, const Medium* medium,
+                              const LightOnItsWay& of, uint64_t& rays,
+                              ShadowRayTo to = ShadowRayTo::light);
 
 /// The same for any scene: 1 or 0 where there is no medium.
 inline Spectrum shadow_ray_transmittance(const Scene& scene, const Ray& ray, const Medium* medium,
                                          const LightOnItsWay& of, uint64_t& rays,
                                          ShadowRayTo to = ShadowRayTo::light) {
-  if (scene.has_media() || (to == ShadowRayTo::camera && scene.hides_lights()))
-    return transmittance_through_media(scene, ray, medium, of, rays, to);
+  if (lets_shadow_rays_pass(scene, to))
+    return transmittance_on_way(scene, ray, medium, of, rays, to);
   ++rays;
   return scene.occluded(ray) ? Spectrum() : Spectrum(1);
 }
 
-/// Whether nothing but null boundaries stands in the way of a shadow ray; media hide nothing.
-/// Counts rays.
+/// Whether a shadow ray arrives, or a part of it; media hide nothing. Counts rays.
 bool is_unobstructed(const Scene& scene, const Ray& ray, uint64_t& rays,
                      ShadowRayTo to = ShadowRayTo::light);
 

@@ -15,7 +15,7 @@ CameraPath::CameraPath(const CameraPath& stem, Sampler& sampler)
       vertices_(stem.vertices_, walk_),
       weights_(in_, vertices_) {}
 
-CameraWalk::Arrival CameraPath::go_on(bool scatters_in_media, LightWeights* weights) {
+CameraWalk::Arrival CameraPath::move(bool scatters_in_media, LightWeights* weights) {
   if (!weights) weights = &weights_;
   const bool had_roulette = vertices_.has_roulette_at_first();
   CameraWalk::Arrival arrival = CameraWalk::Arrival::nothing;
@@ -27,7 +27,6 @@ CameraWalk::Arrival CameraPath::go_on(bool scatters_in_media, LightWeights* weig
   }
   if (arrival == CameraWalk::Arrival::nothing) return arrival;
   if (had_roulette) walk_.has_survived(vertices_.survival());
-  vertices_.arrive(walk_);
   return arrival;
 }
 

@@ -22,8 +22,19 @@ class CameraPath {
 
   /// Goes to the next vertex, and adds the light that is met and what merges with the segments in
   /// media. If nothing is to be scattered there, media take their share alone. `weights` weigh what
-  /// is met; null: the path's own.
-  CameraWalk::Arrival go_on(bool scatters_in_media, LightWeights* weights = nullptr);
+  /// is met; null: the path's own. Before the vertex counts, `split()` is called if the walk waits
+  /// there, since light goes straight on in part.
+  template <typename Split>
+  CameraWalk::Arrival go_on(bool scatters_in_media, LightWeights* weights, const Split& split) {
+    const CameraWalk::Arrival arrival = move(scatters_in_media, weights);
+    if (arrival == CameraWalk::Arrival::nothing) return arrival;
+    if (walk_.straight_chance() > 0) split();
+    vertices_.arrive(walk_);
+    return arrival;
+  }
+  CameraWalk::Arrival go_on(bool scatters_in_media, LightWeights* weights = nullptr) {
+    return go_on(scatters_in_media, weights, [] {});
+  }
   /// Adds light that is sampled from the vertex.
   void add_direct_light(LightWeights* weights = nullptr);
   /// Adds the diffuse indirect light that the cache has, which then nothing else adds.
@@ -52,6 +63,8 @@ class CameraPath {
   const CameraPathInputs& inputs() const { return in_; }
 
  private:
+  CameraWalk::Arrival move(bool scatters_in_media, LightWeights* weights);
+
   const CameraPathInputs& in_;
   CameraWalk walk_;
   CameraVertices vertices_;

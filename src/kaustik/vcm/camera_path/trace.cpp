@@ -5,19 +5,20 @@
 namespace kaustik {
 namespace {
 
-/// Events after which paths no longer branch.
-constexpr int most_split_events = 4;
+/// Events after which paths no longer branch, and surfaces that branches go straight through.
+constexpr int most_split_events = 4, most_split_straight = 8;
 
 /// A path of several that camera paths branch into at smooth transparent surfaces.
 struct Branch {
   float share = 1;     ///< what chance would have left of such paths, over what was followed
   float survival = 1;  ///< with which it is followed beyond the next vertex
+  int straight = 0;    ///< surfaces at which one branch went straight on
 
   /// One that chance would choose that often.
   Branch by(float chance) const {
     // Followed so many times more often than chance would have it.
     constexpr float most_often = 8;
-    Branch result;
+    Branch result = *this;
     result.survival = survival * std::min(1.0f, most_often * share * chance);
     result.share = share * chance * survival / result.survival;
     return result;
@@ -45,6 +46,27 @@ void split(CameraPath& stem, const CameraWalk::DeltaEvents& events, Branch& bran
   branch = branch.by(likely.pdf_solid_angle);
 }
 
+/// Follows the branch that goes straight on where the walk waits, and lets `stem` stay.
+void split_straight(CameraPath& stem, Branch& branch) {
+  CameraWalk& walk = stem.walk();
+  const float chance = walk.straight_chance();
+  const FirstHit seen = walk.first_hit();
+  ++branch.straight;
+  {
+    Sampler numbers = walk.sampler().fork(Fork::straight_branch);
+    CameraPath path(stem, numbers);
+    path.walk().go_straight();
+    follow(path, branch.by(chance));
+  }
+  // Layers of what is seen show the likely one.
+  if (chance > 0.5f)
+    walk.keep_first_hit();
+  else
+    walk.set_first_hit(seen);
+  walk.stay_at_surface();
+  branch = branch.by(1 - chance);
+}
+
 /// Takes the path to its end.
 void follow(CameraPath& path, Branch branch) {
   const CameraPathInputs& in = path.inputs();
@@ -52,7 +74,12 @@ void follow(CameraPath& path, Branch branch) {
   CameraWalk& walk = path.walk();
   Sampler& sampler = walk.sampler();
   for (;;) {
-    const CameraWalk::Arrival arrival = path.go_on(in.scene.has_scattering());
+    const auto may_split = [&] {
+      return path.vertices().is_at_first() && walk.events() < most_split_events;
+    };
+    walk.wait_at_straight(may_split() && branch.straight < most_split_straight);
+    const CameraWalk::Arrival arrival =
+        path.go_on(in.scene.has_scattering(), nullptr, [&] { split_straight(path, branch); });
     if (arrival == CameraWalk::Arrival::nothing) return;
     // Lamps that a branch shows it shows always; all else as often as it is worth.
     if (branch.survival < 1) {
@@ -66,9 +93,7 @@ void follow(CameraPath& path, Branch branch) {
     if (techniques.merging && !in_medium) path.merge();
     if (techniques.connections) path.connect();
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
-    const bool may_split =
-        !in_medium && path.vertices().is_at_first() && walk.events() < most_split_events;
-    if (const auto events = may_split ? walk.delta_events() : std::nullopt) {
+    if (const auto events = !in_medium && may_split() ? walk.delta_events() : std::nullopt) {
       split(path, *events, branch);
     } else if (in_medium) {
       walk.scatter_in_medium(u);

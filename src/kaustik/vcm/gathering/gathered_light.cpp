@@ -98,7 +98,7 @@ RadianceSource::Incoming GatheredLight::incoming_through(const Medium* medium,
     since_event += hit.t;
     return found;
   };
-  while (travel(in_.scene, state, ray, vertex, rays, go_on)) {
+  while (travel(in_.scene, state, ray, vertex, rays, sampler, go_on)) {
     if (state.depth == 0) result.distance = distance;
     sampler.start_vertex(uint32_t(state.depth));
     // That of the surface that gathers, and the one here.

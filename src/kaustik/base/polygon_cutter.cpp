@@ -1,9 +1,9 @@
-#include "kaustik/geometry/polygon_cutter.h"
+#include "kaustik/base/polygon_cutter.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "kaustik/geometry/ear_clipper.h"
+#include "kaustik/base/ear_clipper.h"
 
 namespace kaustik {
 namespace {

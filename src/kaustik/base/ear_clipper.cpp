@@ -1,4 +1,4 @@
-#include "kaustik/geometry/ear_clipper.h"
+#include "kaustik/base/ear_clipper.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,233 @@
+#include "kaustik/loader/framing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "kaustik/base/error.h"
+#include "kaustik/base/photometric_units.h"
+#include "kaustik/loader/obj_scan.h"
+#include "kaustik/loader/object_maker.h"
+#include "kaustik/loader/object_parts.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int64_t film_side = 768;
+constexpr double lens_degrees = 40;
+
+/// Of the points that are finite.
+template <typename T>
+Bounds3f of_points(std::span<const T> numbers) {
+  // What is not finite makes the sum no number.
+  Vec3f low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  float sum = 0;
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3)
+    for (int k = 0; k < 3; ++k) {
+      const auto number = float(numbers[i + size_t(k)]);
+      low[k] = number < low[k] ? number : low[k];
+      high[k] = number > high[k] ? number : high[k];
+      sum += number * 0;
+    }
+  if (numbers.size() < 3) return {};
+  if (sum == 0) return {low, high};
+  Bounds3f bounds;
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    const Vec3f p{float(numbers[i]), float(numbers[i + 1]), float(numbers[i + 2])};
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) bounds.extendBy(p);
+  }
+  return bounds;
+}
+
+/// Boxes of objects in their own space, each found once.
+class BoundsFinder {
+ public:
+  explicit BoundsFinder(const std::map<std::string, Bounds3f>& files) : files_(files) {}
+
+  Bounds3f of_children(const Object& parent) {
+    Bounds3f bounds;
+    for (const Child& child : parent.children)
+      if (child.object->family == "shape" && child.object->type != "shapegroup")
+        add(placed(*child.object), bounds);
+    return bounds;
+  }
+
+ private:
+  static void add(const Bounds3f& more, Bounds3f& bounds) {
+    if (!more.isEmpty()) bounds.extendBy(more);
+  }
+
+  Bounds3f placed(const Object& shape) {
+    const Bounds3f own = of_shape(shape);
+    const auto* to_world = value_in<Transform>(shape, "to_world");
+    return own.isEmpty() || !to_world ? own : to_world->bounds(own);
+  }
+
+  Bounds3f of_shape(const Object& shape) {
+    if (shape.type == "instance") {
+      for (const Child& child : shape.children)
+        if (child.object->type == "shapegroup") return of_group(*child.object);
+      return {};
+    }
+    if (shape.type == "mesh") {
+      const auto* positions = value_in<std::shared_ptr<const Array>>(shape, "positions");
+      return positions ? of_positions(**positions) : Bounds3f();
+    }
+    if (shape.type == "obj") {
+      const auto* file = value_in<std::string>(shape, "filename");
+      return file ? of_obj(*file) : Bounds3f();
+    }
+    if (shape.type == "rectangle" || shape.type == "disk")
+      return {Vec3f(-1, -1, 0), Vec3f(1, 1, 0)};
+    if (shape.type == "cube") return {Vec3f(-1, -1, -1), Vec3f(1, 1, 1)};
+    if (shape.type == "sphere") {
+      const auto radius = float(number_in(shape, "radius").value_or(1));
+      const auto* center = value_in<Vec3d>(shape, "center");
+      const Vec3f middle = center ? Vec3f(*center) : Vec3f(0, 0, 0);
+      return {middle - Vec3f(radius), middle + Vec3f(radius)};
+    }
+    if (shape.type == "cylinder") {
+      const auto radius = float(number_in(shape, "radius").value_or(1));
+      Bounds3f bounds;
+      for (const auto& [end, usual] : {std::pair("p0", 0.f), {"p1", 1.f}}) {
+        const auto* given = value_in<Vec3d>(shape, end);
+        const Vec3f point = given ? Vec3f(*given) : Vec3f(0, 0, usual);
+        bounds.extendBy(point - Vec3f(radius));
+        bounds.extendBy(point + Vec3f(radius));
+      }
+      return bounds;
+    }
+    return {};
+  }
+
+  Bounds3f of_group(const Object& group) {
+    const auto [entry, is_new] = groups_.try_emplace(&group);
+    if (is_new) entry->second = of_children(group);
+    return entry->second;
+  }
+
+  Bounds3f of_obj(const std::string& path) {
+    const auto [entry, is_new] = files_.try_emplace(path);
+    if (is_new) entry->second = scan_obj(path).bounds;
+    return entry->second;
+  }
+
+  Bounds3f of_positions(const Array& positions) {
+    const auto [entry, is_new] = meshes_.try_emplace(&positions);
+    Bounds3f& bounds = entry->second;
+    if (is_new) positions.visit([&](auto values) { bounds = of_points(values); });
+    return bounds;
+  }
+
+  std::map<const Object*, Bounds3f> groups_;
+  std::map<const Array*, Bounds3f> meshes_;
+  std::map<std::string, Bounds3f> files_;
+};
+
+/// From the middle of what is shown to the camera.
+Vec3d direction_to_camera() { return Vec3d(1, 0.6, 1.6).normalized(); }
+
+bool has_any(const Object& object, std::string_view family) {
+  return std::any_of(object.children.begin(), object.children.end(),
+                     [&](const Child& child) { return child.object->family == family; });
+}
+
+/// Whether something within an object shines.
+bool shines(const Object& object, std::set<const Object*>& seen) {
+  if (!seen.insert(&object).second) return false;
+  return std::any_of(object.children.begin(), object.children.end(), [&](const Child& child) {
+    const std::string& family = child.object->family;
+    if (family == "emitter") return child.object->type != "background";
+    return family == "shape" && shines(*child.object, seen);
+  });
+}
+
+std::string text_of_point(const Vec3d& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
+}
+
+}  // namespace
+
+std::shared_ptr<Object> film_of_aspect(double aspect, const Place& place) {
+  constexpr double usual = 4.0 / 3, least = 1.0 / 16;
+  const double ratio = aspect > 0 ? std::clamp(aspect, least, 1 / least) : usual;
+  const auto side = [](double share) {
+    return std::max<int64_t>(1, std::llround(double(film_side) * std::min(1.0, share)));
+  };
+  auto film = make_object("film", "hdrfilm", place);
+  give(*film, "width", side(ratio));
+  give(*film, "height", side(1 / ratio));
+  return film;
+}
+
+Framing::Framing(Description& description, Deviations& deviations,
+                 const std::map<std::string, Bounds3f>& obj_bounds, UpAxis up)
+    : description_(description), deviations_(deviations), up_(up) {
+  const Bounds3f bounds = BoundsFinder(obj_bounds).of_children(*description.scene);
+  if (bounds.isEmpty()) return;
+  const double radius = double(bounding_radius(bounds));
+  middle_ = Vec3d(center(bounds));
+  // A single point shows nothing; what is out of all bounds is refused where it is built.
+  if (radius > 0 && std::isfinite(radius)) radius_ = radius;
+}
+
+void Framing::add_missing_camera() {
+  Object& scene = *description_.scene;
+  if (has_any(scene, "sensor")) return;
+  constexpr double margin = 1.05;
+  const double half_angle = lens_degrees / 2 * std::numbers::pi / 180;
+  const Vec3d origin =
+      middle_ + turned(direction_to_camera()) * (margin * radius_ / std::sin(half_angle));
+  auto sensor = make_object("sensor", "perspective", scene.place);
+  give(*sensor, "to_world", Transform::look_at(origin, middle_, turned({0, 1, 0})));
+  give(*sensor, "fov", lens_degrees);
+  give(*sensor, "fov_axis", "smaller");
+  put(*sensor, "", film_of_aspect(0, scene.place));
+  put(scene, "", sensor);
+  deviations_.missing("camera",
+                      fmt::format("the file has none: it is seen from {} toward {}",
+                                  text_of_point(origin), text_of_point(middle_)),
+                      scene.place);
+}
+
+bool is_lit(const Description& description) {
+  std::set<const Object*> seen;
+  return shines(*description.scene, seen);
+}
+
+void Framing::add_studio_light() {
+  Object& scene = *description_.scene;
+  // Of the white: that of the even light, and the irradiance from the lamp over π.
+  constexpr double white = studio_luminance / lumens_per_watt_white;
+  constexpr double even = 0.3, distance = 4, half_side = 1.5;
+  const double form_factor = 4 * half_side * half_side / (distance * distance);
+  const Vec3d to_camera = direction_to_camera();
+  const Vec3d right = Vec3d(0, 1, 0).cross(to_camera).normalized();
+  const Vec3d to_lamp = turned((to_camera - right * 0.6 + Vec3d(0, 0.8, 0)).normalized());
+  auto around = make_object("emitter", "constant", scene.place);
+  give(*around, "radiance", even * white);
+  put(scene, "", around);
+  auto lamp = make_object("shape", "rectangle", scene.place);
+  const double side = half_side * radius_;
+  give(*lamp, "to_world",
+       Transform::look_at(middle_ + to_lamp * (distance * radius_), middle_, turned({0, 1, 0})) *
+           Transform::scale({side, side, 1}));
+  auto area = make_object("emitter", "area", scene.place);
+  give(*area, "radiance", (1 - even) * white * std::numbers::pi / form_factor);
+  give(*area, "visible", false);
+  put(*lamp, "", area);
+  put(scene, "", lamp);
+  deviations_.missing("light",
+                      "the file has none: even light around it and a large lamp behind the "
+                      "camera's left shoulder stand for it",
+                      scene.place);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,52 @@
+#pragma once
+// For formats whose files often have geometry alone: a camera and light that show it.
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "kaustik/loader/deviations.h"
+#include "kaustik/scene/description.h"
+
+namespace kaustik {
+
+/// A film of that width over height; of 4 : 3 where it is 0.
+std::shared_ptr<Object> film_of_aspect(double aspect, const Place& place);
+
+/// Whether something in a scene shines.
+bool is_lit(const Description& description);
+
+/// The luminance of white surfaces in the light of a studio, cd/m²: that of paper in an office.
+inline constexpr double studio_luminance = 100;
+
+/// The direction that formats call upward.
+enum class UpAxis { y, z };
+
+/// Puts a camera and light into a scene, by the box around its shapes: meshes of buffers, spheres,
+/// cylinders, cubes, rectangles and disks, through instances, and OBJ files, whose vertices are
+/// read. What it adds is told as a deviation.
+class Framing {
+ public:
+  /// `obj_bounds`: of files that have been read, by path.
+  Framing(Description& description, Deviations& deviations,
+          const std::map<std::string, Bounds3f>& obj_bounds = {}, UpAxis up = UpAxis::y);
+
+  /// Gives a scene without a camera one that looks at all of it toward −z (+y where z is up), from
+  /// the right and above, with 40° along the picture's shorter side. Does nothing for others.
+  void add_missing_camera();
+  /// Even light around the scene, and a large lamp behind that camera's left shoulder, which no
+  /// camera sees. White surfaces that face the lamp get about `studio_luminance`.
+  void add_studio_light();
+
+ private:
+  /// World from a space where +y is up.
+  Vec3d turned(const Vec3d& v) const { return up_ == UpAxis::y ? v : Vec3d(v.x, -v.z, v.y); }
+
+  Description& description_;
+  Deviations& deviations_;
+  UpAxis up_;
+  Vec3d middle_{0, 0, 0};
+  double radius_ = 1;
+};
+
+}  // namespace kaustik

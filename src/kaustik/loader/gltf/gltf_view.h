@@ -1,0 +1,21 @@
+#pragma once
+// Cameras and lamps of nodes.
+
+#include <memory>
+#include <set>
+#include <string>
+
+#include "kaustik/loader/gltf/gltf_nodes.h"
+#include "kaustik/loader/gltf/gltf_options.h"
+
+namespace kaustik::gltf {
+
+/// The sensor of a node that has a camera; null: it has none. `ids`: those that are taken.
+std::shared_ptr<Object> sensor_of(const File& file, const PlacedNode& placed,
+                                  std::set<std::string>& ids);
+
+/// The lamp of a node that has one of KHR_lights_punctual; null: it has none.
+std::shared_ptr<Object> lamp_of(const File& file, const PlacedNode& placed, const Options& options,
+                                Deviations& deviations);
+
+}  // namespace kaustik::gltf

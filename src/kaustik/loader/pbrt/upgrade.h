@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+#include "kaustik/loader/deviations.h"
+#include "kaustik/loader/pbrt/parameters.h"
+
+namespace kaustik::pbrt {
+
+// Files of pbrt-v3 in terms of v4. Names of v4 stay as they are; what changes in looks is told.
+
+/// The type that the material has in v4; its parameters are renamed.
+std::string upgraded_material(const std::string& type, ParameterList& list,
+                              const std::string& object, Deviations& deviations);
+/// A light's `scale` is a number, and what its blackbody is multiplied by belongs to it.
+void upgrade_light(ParameterList& list, const std::string& object, Deviations& deviations);
+/// The type of a medium.
+std::string upgraded_medium(const std::string& type);
+
+}  // namespace kaustik::pbrt

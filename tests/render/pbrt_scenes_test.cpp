@@ -1,0 +1,175 @@
+// What is seen in scenes of pbrt, where a closed form tells it.
+
+#include <cmath>
+#include <fstream>
+
+#include "kaustik/loader/pbrt_scene.h"
+#include "tests/support/measure.h"
+#include "tests/support/temporary_folder.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+constexpr const char* camera =
+    "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
+    "Camera \"perspective\" \"float fov\" .5\nWorldBegin\n";
+
+/// Of a picture that looks from the origin along +z.
+RunningStatistics seen(const std::string& world, const std::string& folder = "",
+                       double samples = 4) {
+  const test::TestScene scene(parse_pbrt(camera + world, "test.pbrt", folder));
+  return test::render(scene, "path", "<integer name=\"max_depth\" value=\"4\"/>",
+                      {.samples = samples})
+      .mean({""});
+}
+
+void write(const test::TemporaryFolder& folder, const char* name, const std::string& contents) {
+  std::ofstream(folder.path(name), std::ios::binary) << contents;
+}
+
+/// A square of side 2 at z = 5 whose winding faces the camera, or not, with those normals.
+std::string square(bool faces_camera, const std::string& normal) {
+  std::string normals;
+  for (int i = 0; i < 4; ++i) normals += normal + " ";
+  return "Shape \"trianglemesh\" \"point3 P\" [-1 -1 5 -1 1 5 1 1 5 1 -1 5] \"integer indices\" " +
+         std::string(faces_camera ? "[0 1 2 0 2 3]" : "[0 2 1 0 3 2]") +
+         (normal.empty() ? "" : " \"normal N\" [" + normals + "]") + "\n";
+}
+
+constexpr const char* lamp = "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] ";
+
+TEST(PbrtTraced, LampsShineToTheSideOfTheirNormals) {
+  EXPECT_FLOAT_EQ(float(seen(lamp + square(true, "")).mean()), 3);
+  EXPECT_EQ(seen(lamp + square(false, "")).mean(), 0);
+  for (const bool faces_camera : {true, false}) {
+    EXPECT_FLOAT_EQ(float(seen(lamp + square(faces_camera, "0 0 -1")).mean()), 3) << faces_camera;
+    EXPECT_EQ(seen(lamp + square(faces_camera, "0 0 1")).mean(), 0) << faces_camera;
+  }
+  EXPECT_EQ(seen(lamp + ("ReverseOrientation " + square(false, "0 0 -1"))).mean(), 0);
+  EXPECT_FLOAT_EQ(float(seen(lamp + ("Scale -1 1 1 " + square(false, "0 0 -1"))).mean()), 3);
+}
+
+TEST(PbrtTraced, PatchesAndPlyFilesDoSo) {
+  const std::string normals = "\"normal N\" [0 0 -1 0 0 -1 0 0 -1 0 0 -1]";
+  EXPECT_FLOAT_EQ(float(seen(std::string(lamp) +
+                             "Shape \"bilinearmesh\" \"point3 P\" "
+                             "[-1 -1 5 1 -1 5 -1 1 5 1 1 5] " +
+                             normals)
+                            .mean()),
+                  3);
+  const test::TemporaryFolder folder;
+  write(folder, "lamp.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "-2 -2 5 0 0 -1\n4 -2 5 0 0 -1\n-2 4 5 0 0 -1\n3 0 1 2\n");
+  EXPECT_FLOAT_EQ(
+      float(seen(std::string(lamp) + "Shape \"plymesh\" \"string filename\" \"lamp.ply\"",
+                 folder.path(""))
+                .mean()),
+      3);
+}
+
+TEST(PbrtTraced, MirroredBodiesKeepTheirFront) {
+  // pbrt's disk faces +z of its space; turned, it faces the camera, mirrored or not.
+  for (const char* mirror : {"", "Scale -1 1 1 "}) {
+    const std::string turned = std::string("Translate 0 0 5 Rotate 180 1 0 0 ") + mirror;
+    EXPECT_FLOAT_EQ(float(seen(lamp + turned + "Shape \"disk\"").mean()), 3) << mirror;
+    EXPECT_FLOAT_EQ(float(seen(lamp + turned + "Shape \"sphere\"").mean()), 3) << mirror;
+    EXPECT_EQ(seen(lamp + turned + "ReverseOrientation Shape \"disk\"").mean(), 0) << mirror;
+  }
+}
+
+TEST(PbrtTraced, LampsWithAlphaZeroShineUnseen) {
+  const std::string ball = "AttributeBegin " + std::string(lamp) +
+                           "Translate 0 0 2 Shape \"sphere\" \"float radius\" .2 \"float alpha\" 0 "
+                           "AttributeEnd\n";
+  EXPECT_EQ(seen(ball).mean(), 0);
+  // On a wall at a distance of 3, E = π L r²/d²; it reflects ρ E / π = .5 · 3 · (.2 / 3)².
+  const double expected = .5 * 3 * (.2 / 3) * (.2 / 3);
+  EXPECT_NEAR(seen(ball + "Material \"diffuse\" Shape \"trianglemesh\" \"point3 P\" "
+                          "[-9 -9 5 -9 9 5 9 9 5 9 -9 5] \"integer indices\" [0 1 2 0 2 3]",
+                   "", 64)
+                  .mean(),
+              expected, 1e-3 * expected);
+}
+
+/// A picture of floats.
+std::string pfm(int width, int height, const std::vector<float>& values) {
+  std::string text = "Pf\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+  text.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  return text;
+}
+
+TEST(PbrtTraced, PicturesShine) {
+  const test::TemporaryFolder folder;
+  write(folder, "grey.pfm", pfm(2, 2, {.5, .5, .5, .5}));
+  EXPECT_FLOAT_EQ(float(seen("AreaLightSource \"diffuse\" \"string filename\" \"grey.pfm\" "
+                             "\"float scale\" 4 " +
+                                 square(true, ""),
+                             folder.path(""))
+                            .mean()),
+                  2);
+}
+
+/// A picture of one colour with opacity.
+std::string tga(int red, int green, int blue, int opacity) {
+  std::string text(18, '\0');
+  text[2] = 2;
+  text[12] = text[14] = 1;
+  text[16] = 32;
+  text[17] = 8;
+  for (const int part : {blue, green, red, opacity}) text += char(part);
+  return text;
+}
+
+TEST(PbrtTraced, PicturesForNumbersAreOpacityOrMeans) {
+  const test::TemporaryFolder folder;
+  write(folder, "leaf.tga", tga(255, 255, 255, 51));
+  write(folder, "solid.tga", tga(255, 255, 255, 255));
+  std::string colours = pfm(1, 1, {.3f, .6f, 0});
+  colours[1] = 'F';
+  write(folder, "colours.pfm", colours);
+  // A lamp behind a sheet that covers a part of it.
+  const auto seen_behind = [&](const std::string& picture) {
+    return seen(
+        "Texture \"a\" \"float\" \"imagemap\" \"string filename\" " + picture +
+            "\nAttributeBegin Translate 0 0 2 " + std::string(lamp) + square(true, "") +
+            "AttributeEnd\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0] Translate 0 0 -1 "
+            "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 5 1 -1 5 -1 1 5 1 1 5] "
+            "\"texture alpha\" \"a\"",
+        folder.path(""), 400);
+  };
+  const auto expect_seen = [&](const std::string& picture, double expected) {
+    const RunningStatistics measured = seen_behind(picture);
+    EXPECT_NEAR(measured.mean(), expected, 1e-4 + 5 * measured.standard_error()) << picture;
+    EXPECT_LT(measured.standard_error(), .02) << picture;
+  };
+  expect_seen("\"leaf.tga\"", 3 * .8);
+  expect_seen("\"solid.tga\"", 0);
+  expect_seen("\"colours.pfm\"", 3 * .7);
+  expect_seen("\"colours.pfm\" \"bool invert\" true", 3 * .3);
+}
+
+TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
+  // In the square's middle diamond z is above 0: 5 there, 0 below.
+  constexpr int size = 64;
+  std::vector<float> values;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      values.push_back(
+          std::fabs(2 * (x + .5) / size - 1) + std::fabs(2 * (y + .5) / size - 1) < 1 ? 5.f : 0.f);
+  const test::TemporaryFolder folder;
+  write(folder, "sky.pfm", pfm(size, size, values));
+  const std::string sky = "LightSource \"infinite\" \"string filename\" \"sky.pfm\"\n";
+  EXPECT_NEAR(seen(sky, folder.path("")).mean(), 5, .02);
+  EXPECT_NEAR(seen("Scale 1 1 -1 " + sky, folder.path("")).mean(), 0, 1e-6);
+  // A wall that faces it reflects ρ E / π = .5 · 5, but for the pixels on the horizon.
+  const std::string wall =
+      "AttributeBegin Scale 1 1 -1 " + sky + "AttributeEnd\n" + square(true, "");
+  const RunningStatistics lit = seen(wall, folder.path(""), 64);
+  EXPECT_NEAR(lit.mean(), 2.5, .02 + 4 * lit.standard_error());
+}
+
+}  // namespace
+}  // namespace kaustik::pbrt
