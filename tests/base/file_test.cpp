@@ -1,15 +1,20 @@
 #include "kaustik/base/file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
+#include <vector>
 
 #include "kaustik/base/error.h"
 
@@ -55,6 +60,37 @@ TEST_F(Files, LinksStayAndTheirTargetIsWritten) {
   fs::create_symlink("a", path("b"));
   EXPECT_THROW(write(path("a"), "never"), Error);
   EXPECT_TRUE(fs::is_symlink(path("a")));
+}
+
+TEST_F(Files, WhatIsNotWantedInTheEndIsNotWritten) {
+  write(path("there"), "old");
+  const std::vector<uint8_t> more{'n', 'e', 'w'};
+  const auto asked = [&](bool answer) {
+    return write_file_atomically_if(path("there"), more, [&] {
+      EXPECT_EQ(contents(path("there")), "old");
+      return answer;
+    });
+  };
+  EXPECT_FALSE(asked(false));
+  EXPECT_EQ(contents(path("there")), "old");
+  EXPECT_TRUE(asked(true));
+  EXPECT_EQ(contents(path("there")), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(fs::path(path("")).parent_path()), {}), 1);
+}
+
+TEST_F(Files, TwoAreNotAskedAtTheSameTime) {
+  const std::vector<uint8_t> bytes{'x'};
+  std::atomic<int> asked = 0;
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < 8; ++i)
+    threads.emplace_back([&, i] {
+      write_file_atomically_if(path(fmt::format("file_{}", i)), bytes, [&] {
+        EXPECT_EQ(++asked, 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        --asked;
+        return true;
+      });
+    });
 }
 
 TEST_F(Files, WhatAKilledWriterLeftIsRemoved) {

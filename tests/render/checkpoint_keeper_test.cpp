@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <barrier>
+#include <filesystem>
+#include <thread>
+
 #include "tests/support/film.h"
 #include "tests/support/scripted_integrator.h"
 #include "tests/support/temporary_folder.h"
@@ -58,6 +62,27 @@ TEST_F(SharedCheckpoint, OthersAreReplaced) {
     EXPECT_EQ(passes_there(), "0–2");
   }
   EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(SharedCheckpoint, TheOneOfMostPassesStaysWhoeverIsLast) {
+  // Each writes its film again and again, all at the same time.
+  constexpr uint32_t writers = 6, rounds = 20;
+  std::vector<Film> films;
+  for (uint32_t i = 0; i < writers; ++i) films.push_back(film_with({0, 1 + i}));
+  for (uint32_t round = 0; round < rounds; ++round) {
+    std::filesystem::remove(path_);
+    std::barrier start(writers);
+    std::vector<std::jthread> threads;
+    for (const Film& film : films)
+      threads.emplace_back([&] {
+        CheckpointKeeper writer(path_, CheckpointOwner::perhaps_several, 0, record_, integrator_,
+                                {});
+        start.arrive_and_wait();
+        writer.write_last(film);
+      });
+    threads.clear();
+    ASSERT_EQ(passes_there(), film_with({0, writers}).passes().text()) << "round " << round;
+  }
 }
 
 TEST_F(SharedCheckpoint, WhoIsAloneReplacesWhatIsThere) {

@@ -14,8 +14,8 @@ namespace {
 
 constexpr uint32_t byte_order_mark = 0x01020304, swapped_byte_order_mark = 0x04030201;
 constexpr size_t checksum_size = sizeof(uint64_t);
-/// That are read at a time.
-constexpr size_t piece_bytes = size_t{1} << 20;
+/// That are read at a time: few enough to be still in the cache when they are looked at.
+constexpr size_t piece_bytes = size_t{1} << 18;
 
 bool starts_with(std::span<const uint8_t> bytes, const std::array<uint8_t, 8>& magic) {
   return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
@@ -40,6 +40,10 @@ void BinaryWriter::put_text(const std::string& text) {
 }
 
 void BinaryWriter::write_to(const std::string& path) { write_file_atomically(path, finished()); }
+
+bool BinaryWriter::write_to_if(const std::string& path, const std::function<bool()>& is_wanted) {
+  return write_file_atomically_if(path, finished(), is_wanted);
+}
 
 std::vector<uint8_t> BinaryWriter::finished() {
   put(checksum(bytes_));

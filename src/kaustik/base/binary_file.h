@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -40,6 +41,8 @@ class BinaryWriter {
   void reserve(size_t more) { bytes_.reserve(bytes_.size() + more + sizeof(uint64_t)); }
   /// Adds the checksum and writes atomically; throws as write_file_atomically() does.
   void write_to(const std::string& path);
+  /// The same, as write_file_atomically_if() does.
+  bool write_to_if(const std::string& path, const std::function<bool()>& is_wanted);
   /// The same bytes, for memory or a connection. Nothing may be put after that.
   std::vector<uint8_t> finished();
 

@@ -173,13 +173,17 @@ class TemporaryFile {
     }
   }
 
-  /// Puts it in the target's place, with the target's permissions if there was one.
-  void replace_target() {
+  /// Makes it safe on the disk, with the target's permissions if there is one.
+  void finish() {
     struct stat status;
     if (::stat(target_.c_str(), &status) == 0 &&
         ::fchmod(file_->get(), status.st_mode & 07777) != 0)
       fail(errno);
     if (::fsync(file_->get()) != 0) fail(errno);
+  }
+
+  /// Puts it in the target's place.
+  void replace_target() {
     // Closing it first would give up the lock while it still has the name of a leftover.
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail(errno);
     is_renamed_ = true;
@@ -212,6 +216,30 @@ class TemporaryFile {
   std::optional<Descriptor> file_;
   bool is_renamed_ = false;
 };
+
+/// Keeps others out who lock the folder, where the file system can; goes with the process that
+/// holds it.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& folder)
+      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (!folder_.is_open()) return;
+    while (::flock(folder_.get(), LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+
+ private:
+  Descriptor folder_;
+};
+
+/// The target of what is to be written, in a folder without leftovers. Throws as
+/// check_output_path().
+std::string prepared_target(const std::string& path) {
+  check_output_path(path);
+  std::string target = output_target(path);
+  remove_leftovers(target);
+  return target;
+}
 
 }  // namespace
 
@@ -318,12 +346,23 @@ void check_output_path(const std::string& path) {
 }
 
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
-  check_output_path(path);
-  const std::string target = output_target(path);
-  remove_leftovers(target);
+  const std::string target = prepared_target(path);
   TemporaryFile file(target);
   file.write(bytes);
+  file.finish();
   file.replace_target();
+}
+
+bool write_file_atomically_if(const std::string& path, std::span<const uint8_t> bytes,
+                              const std::function<bool()>& is_wanted) {
+  const std::string target = prepared_target(path);
+  TemporaryFile file(target);
+  file.write(bytes);
+  file.finish();
+  const FolderLock lock(folder_of(target));
+  if (!is_wanted()) return false;
+  file.replace_target();
+  return true;
 }
 
 }  // namespace kaustik

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,6 +57,13 @@ class InputFile {
 /// (disk full, file size limit, …). The caller must have SIGXFSZ ignored if a file size limit may
 /// be set.
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes);
+
+/// The same, unless `is_wanted`, which is asked right before the file is put in its place, says no:
+/// then what is there stays, and this returns false. From the question on until the file is in its
+/// place no other caller of this function has an answer for that folder, if the file system can
+/// lock folders: local ones can, some network disks cannot.
+bool write_file_atomically_if(const std::string& path, std::span<const uint8_t> bytes,
+                              const std::function<bool()>& is_wanted);
 
 /// The file that a chain of symbolic links leads to, there or not: what is written to a link.
 /// Throws Error(input) where they lead in a circle.

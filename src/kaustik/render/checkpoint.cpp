@@ -213,10 +213,17 @@ std::vector<uint8_t> checkpoint_bytes(const RenderRecord& record, const Film& fi
 }
 
 void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film,
-                      const Lessons& lessons) try {
+                      const Lessons& lessons) {
+  write_checkpoint_if(path, record, film, lessons, {});
+}
+
+bool write_checkpoint_if(const std::string& path, const RenderRecord& record, const Film& film,
+                         const Lessons& lessons, const std::function<bool()>& is_wanted) try {
   BinaryWriter writer(checkpoint_kind);
   put_checkpoint(writer, record, film, lessons);
+  if (is_wanted) return writer.write_to_if(path, is_wanted);
   writer.write_to(path);
+  return true;
 } catch (const std::bad_alloc&) {
   throw Error(ErrorKind::system, fmt::format("cannot write '{}': not enough memory", path),
               "render the picture in parts by the film's crop window, or where there is more");

@@ -1,6 +1,7 @@
 #pragma once
 // Renders that can be gone on with: what a film holds, and all that its passes are a function of.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,6 +80,9 @@ struct Checkpoint {
 /// there is too little memory to collect it.
 void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film,
                       const Lessons& lessons = {});
+/// The same, as write_file_atomically_if() does.
+bool write_checkpoint_if(const std::string& path, const RenderRecord& record, const Film& film,
+                         const Lessons& lessons, const std::function<bool()>& is_wanted);
 
 /// The bytes of that file, for memory or a connection.
 std::vector<uint8_t> checkpoint_bytes(const RenderRecord& record, const Film& film,

@@ -64,8 +64,17 @@ bool CheckpointKeeper::is_behind(const Film& film) const {
   }
 }
 
+bool CheckpointKeeper::write_unless_behind(const Film& film) {
+  const auto is_wanted = [&] { return !is_behind(film); };
+  // Asked at once, too: what is not wanted need not be packed and brought to the disk.
+  return is_wanted() &&
+         write_checkpoint_if(path_, record(), film, integrator_.lessons(), is_wanted);
+}
+
 void CheckpointKeeper::write(const Film& film) {
-  if (owner_ == CheckpointOwner::perhaps_several && is_behind(film)) {
+  if (owner_ == CheckpointOwner::one) {
+    write_checkpoint(path_, record(), film, integrator_.lessons());
+  } else if (!write_unless_behind(film)) {
     if (!std::exchange(has_told_, true) && warn_)
       warn_(
           fmt::format("'{}' holds more passes than this render has, and stays: another process "
@@ -73,7 +82,6 @@ void CheckpointKeeper::write(const Film& film) {
                       path_));
     return;
   }
-  write_checkpoint(path_, record(), film, integrator_.lessons());
   passes_written_ = film.pass_count() + film.regional_pass_count();
 }
 

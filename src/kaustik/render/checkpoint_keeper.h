@@ -31,6 +31,8 @@ class CheckpointKeeper {
  private:
   using Clock = std::chrono::steady_clock;
   void write(const Film& film);
+  /// False: one of more passes is there, and stays.
+  bool write_unless_behind(const Film& film);
   /// Whether the file that is there has all passes of the film, and more.
   bool is_behind(const Film& film) const;
 

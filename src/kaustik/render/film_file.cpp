@@ -9,6 +9,9 @@
 namespace kaustik {
 namespace {
 
+/// That one thread adds, one after the other, with the same buffers.
+constexpr size_t tiles_per_block = 8;
+
 void put_passes(BinaryWriter& writer, const PassSet& passes) {
   writer.put(uint64_t(passes.ranges().size()));
   for (const PassRange& range : passes.ranges()) {
@@ -191,22 +194,29 @@ void Film::add_rows(BinaryReader& reader) {
   reader.need(pixel_count() * numbers_.count, 1);
   sums_.resize(tiles_.count());
   const size_t across = tiles_.tile_at(0, PictureTiles::side);
+  PackedSums of_pixels(numbers_.count);
+  const std::vector<uint8_t> zeros(numbers_.count + most_packed, packed_zero);
   for (size_t first = 0; first < tiles_.count(); first += across) {
     const int y0 = int(first / across) * PictureTiles::side;
     const auto rows = size_t(std::min(PictureTiles::side, size_.y - y0));
-    const std::vector<Fixed> sums = get_sums(reader, rows * size_t(size_.x) * numbers_.count);
-    parallel_blocks(across, 1, [&](size_t tile, size_t, size_t) {
+    of_pixels.read(reader, rows * size_t(size_.x));
+    parallel_blocks(across, tiles_per_block, [&](size_t begin, size_t end, size_t) {
       TilePacker packer(numbers_.count);
-      packer.begin(sums_[first + tile]);
-      for (size_t number = 0; number < numbers_.count; ++number) {
-        std::array<Fixed, PictureTiles::pixels> line{};
-        tiles_.for_pixels_of(first + tile, [&](int x, int y, size_t place) {
-          line[place] =
-              sums[(size_t(y - y0) * size_t(size_.x) + size_t(x)) * numbers_.count + number];
+      for (size_t tile = first + begin; tile < first + end; ++tile) {
+        std::array<const uint8_t*, PictureTiles::pixels> packed;
+        packed.fill(zeros.data());
+        tiles_.for_pixels_of(tile, [&](int x, int y, size_t place) {
+          packed[place] = of_pixels.list(size_t(y - y0) * size_t(size_.x) + size_t(x));
         });
-        packer.add(line);
+        packer.begin(sums_[tile]);
+        for (size_t number = 0; number < numbers_.count; ++number) {
+          std::array<Fixed, PictureTiles::pixels> line;
+          for (size_t place = 0; place < line.size(); ++place)
+            line[place] = take_sum(packed[place]);
+          packer.add(line);
+        }
+        packer.end(sums_[tile]);
       }
-      packer.end(sums_[first + tile]);
     });
   }
 }

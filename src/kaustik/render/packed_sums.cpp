@@ -2,22 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 namespace kaustik {
 namespace {
 
 constexpr int byte_count = sizeof(Fixed);
-constexpr uint8_t code_of_zero = 0x01;
-
-/// Of bytes from the lowest to the highest.
-UnsignedFixed number_of(const uint8_t* bytes) {
-  std::array<uint8_t, byte_count> in_order;
-  std::copy_n(bytes, byte_count, in_order.begin());
-  if constexpr (std::endian::native == std::endian::big)
-    std::reverse(in_order.begin(), in_order.end());
-  return std::bit_cast<UnsignedFixed>(in_order);
-}
 
 uint8_t byte_of(Fixed value, int index) { return uint8_t(value >> (8 * index)); }
 /// What all bytes behind `last` must be for the sign to come out right.
@@ -39,61 +28,68 @@ int last_kept(Fixed value) {
 }
 
 void put_sum(BinaryWriter& writer, Fixed value) {
-  if (value == 0) return writer.put(code_of_zero);
+  if (value == 0) return writer.put(packed_zero);
   const int first = first_kept(value), last = last_kept(value);
-  std::array<uint8_t, 1 + byte_count> bytes;
+  std::array<uint8_t, most_packed> bytes;
   bytes[0] = uint8_t(first | last << 4);
   for (int i = first; i <= last; ++i) bytes[size_t(1 + i - first)] = byte_of(value, i);
   writer.put_bytes(bytes.data(), size_t(2 + last - first));
 }
 
-/// Of a code and what follows it.
-constexpr size_t most_packed = 1 + byte_count;
+/// What a code tells: how many bytes a sum takes. Of one that is not valid that is anything.
+int packed_bytes(uint8_t code) { return 2 + (code >> 4) - (code & 15); }
 
-struct UnpackedSum {
-  Fixed value = 0;
-  size_t bytes = 1;  ///< that it took; 0: they are no sum
-};
-
-/// Reads `most_packed` bytes, whether the sum takes them or not.
-UnpackedSum unpacked_sum(const uint8_t* packed) {
-  const uint8_t code = packed[0];
-  if (code == code_of_zero) return {};
-  const int first = code & 15, last = code >> 4;
-  if (first > last) return {0, 0};
-  // Bytes that are not its own leave at the top, and the sign comes in from there.
-  const int foreign_bits = 8 * (byte_count - 1 - (last - first));
-  const auto value = Fixed(number_of(packed + 1) << foreign_bits) >> foreign_bits;
-  const UnsignedFixed in_place = UnsignedFixed(value) << (8 * first);
-  // The one number that has no opposite.
-  if (in_place == UnsignedFixed(1) << 127) return {0, 0};
-  return {Fixed(in_place), size_t(2 + last - first)};
-}
-
-/// As many as whole ones are surely among the bytes.
-struct UnpackedSums {
-  size_t count = 0, bytes = 0;
-  bool are_valid = true;
-};
-
-UnpackedSums unpack_sums(std::span<const uint8_t> packed, std::span<Fixed> sums) {
-  UnpackedSums result;
-  while (result.count < sums.size() && result.bytes + most_packed <= packed.size()) {
-    const UnpackedSum sum = unpacked_sum(packed.data() + result.bytes);
-    if (sum.bytes == 0) return {0, 0, false};
-    sums[result.count++] = sum.value;
-    result.bytes += sum.bytes;
+/// Codes that are not valid, or of sums that may not be.
+constexpr std::array<bool, 256> doubtful_codes = [] {
+  std::array<bool, 256> doubtful{};
+  for (size_t code = 0; code < doubtful.size(); ++code) {
+    const size_t first = code & 15, last = code >> 4;
+    doubtful[code] = (first > last && code != packed_zero) || last == byte_count - 1;
   }
-  return result;
+  return doubtful;
+}();
+
+/// Of one whose bytes are there.
+bool is_valid(const uint8_t* packed) {
+  const int first = *packed & 15, last = *packed >> 4;
+  if (first > last) return *packed == packed_zero;
+  // The one number that has no opposite.
+  const auto* end = packed + 2 + (last - first);
+  return last < byte_count - 1 || end[-1] != 0x80 ||
+         std::any_of(packed + 1, end - 1, [](uint8_t byte) { return byte != 0; });
 }
 
-/// Of bytes that are too few for unpack_sums().
-UnpackedSums unpack_last_sum(std::span<const uint8_t> packed, Fixed& sum) {
-  std::array<uint8_t, most_packed> padded{};
-  std::copy(packed.begin(), packed.end(), padded.begin());
-  const UnpackedSum last = unpacked_sum(padded.data());
-  sum = last.value;
-  return {1, last.bytes, last.bytes > 0 && last.bytes <= packed.size()};
+struct ListEnd {
+  size_t end = 0;
+  bool is_whole = false, is_valid = true;
+};
+
+/// Looks at every sum of a list before it believes it.
+ListEnd careful_end(std::span<const uint8_t> bytes, size_t begin, size_t count) {
+  size_t at = begin;
+  for (; count > 0; --count) {
+    if (at >= bytes.size()) return {at, false};
+    const uint8_t code = bytes[at];
+    if ((code & 15) > code >> 4 && code != packed_zero) return {at, true, false};
+    const auto size = size_t(packed_bytes(code));
+    if (size > bytes.size() - at) return {at, false};
+    if (!is_valid(bytes.data() + at)) return {at, true, false};
+    at += size;
+  }
+  return {at, true};
+}
+
+/// Of a list that does not leave `bytes`, whatever is in them.
+ListEnd quick_end(std::span<const uint8_t> bytes, size_t begin, size_t count) {
+  const uint8_t* at = bytes.data() + begin;
+  bool is_doubtful = false;
+  for (size_t i = 0; i < count; ++i) {
+    const uint8_t code = *at;
+    is_doubtful |= doubtful_codes[code];
+    at += packed_bytes(code);
+  }
+  if (is_doubtful) return careful_end(bytes, begin, count);
+  return {size_t(at - bytes.data()), true};
 }
 
 }  // namespace
@@ -109,18 +105,52 @@ void put_sums(BinaryWriter& writer, std::span<const Fixed> sums) {
   for (const Fixed sum : sums) put_sum(writer, sum);
 }
 
+size_t PackedSums::find_lists(std::span<const uint8_t> bytes, size_t known,
+                              const BinaryReader& reader) {
+  // Not even sums that are all wrong lead farther away, either way.
+  const size_t most = per_list_ * most_packed;
+  for (; known + 1 < begins_.size(); ++known) {
+    const size_t begin = begins_[known];
+    const ListEnd list = begin >= most && bytes.size() - begin >= most
+                             ? quick_end(bytes, begin, per_list_)
+                             : careful_end(bytes, begin, per_list_);
+    if (!list.is_valid) reader.damaged("a sum in it is not valid");
+    if (!list.is_whole) break;
+    begins_[known + 1] = list.end;
+  }
+  return known;
+}
+
+void PackedSums::read(BinaryReader& reader, size_t lists) {
+  reader.need(lists, per_list_);
+  // About as many bytes as last time: lists near one another are much alike.
+  size_t wanted = std::max(lists * per_list_, begins_.empty() ? 0 : begins_.back());
+  begins_.assign(lists + 1, 0);
+  std::span<const uint8_t> bytes;
+  for (size_t known = 0; known < lists; wanted = bytes.size() + bytes.size() / 8 + 1) {
+    const size_t before = bytes.size();
+    bytes = reader.bytes_ahead(wanted);
+    if (bytes.size() == before) reader.damaged("a sum in it is not valid");
+    known = find_lists(bytes, known, reader);
+  }
+  const size_t end = begins_.back();
+  bytes_ = bytes.data();
+  if (bytes.size() - end < most_packed) {
+    padded_.assign(bytes.begin(), bytes.begin() + std::ptrdiff_t(end));
+    padded_.resize(end + most_packed);
+    bytes_ = padded_.data();
+  }
+  reader.skip(end);
+}
+
 std::vector<Fixed> get_sums(BinaryReader& reader, uint64_t count) {
   reader.need(count, 1);
   std::vector<Fixed> sums(count);
-  for (std::span<Fixed> rest = sums; !rest.empty();) {
-    const std::span<const uint8_t> packed = reader.bytes_ahead(most_packed);
-    const UnpackedSums unpacked = packed.size() < most_packed
-                                      ? unpack_last_sum(packed, rest.front())
-                                      : unpack_sums(packed, rest);
-    if (!unpacked.are_valid) reader.damaged("a sum in it is not valid");
-    reader.skip(unpacked.bytes);
-    rest = rest.subspan(unpacked.count);
-  }
+  if (count == 0) return sums;
+  PackedSums packed(1);
+  packed.read(reader, count);
+  const uint8_t* at = packed.list(0);
+  for (Fixed& sum : sums) sum = take_sum(at);
   return sums;
 }
 

@@ -140,9 +140,38 @@ void SumLine::begin_if_zero() {
   wide_words_.fill(0);
 }
 
-void SumLine::add(const std::array<Fixed, count>& values) {
+template <typename ValueAt>
+void SumLine::add_exact(const ValueAt& value_at) {
   begin_if_zero();
-  for (size_t i = 0; i < count; ++i) add(i, values[i]);
+  const int most = top_of_words - shift_;  // bits of a sum
+  if (is_wide_) {
+    add_each(wide_words_, most, value_at);
+  } else {
+    add_each(words_, std::min(62, most), value_at);
+  }
+}
+
+template <typename Words, typename ValueAt>
+void SumLine::add_each(Words& words, int most, const ValueAt& value_at) {
+  using Word = typename Words::value_type;
+  using Unsigned = std::conditional_t<sizeof(Word) == sizeof(uint64_t), uint64_t, UnsignedFixed>;
+  constexpr int sign = 8 * int(sizeof(Word)) - 1;
+  for (size_t i = 0; i < count; ++i) {
+    const Fixed value = value_at(i);
+    const auto word = Word(value >> shift_);
+    const auto sum = Word(Unsigned(words[i]) + Unsigned(word));
+    // Nothing is lost, and neither has more bits.
+    const bool fits = Fixed(UnsignedFixed(Fixed(word)) << shift_) == value &&
+                      ((word ^ (word >> sign)) | (sum ^ (sum >> sign))) >> (most - 1) == 0;
+    if (fits)
+      words[i] = sum;
+    else
+      add(i, value);
+  }
+}
+
+void SumLine::add(const std::array<Fixed, count>& values) {
+  add_exact([&](size_t i) { return values[i]; });
 }
 
 void SumLine::add(const std::array<double, count>& values) { add_numbers(values); }
@@ -172,9 +201,10 @@ void SumLine::add_numbers(const std::array<Number, count>& values) {
 }
 
 void SumLine::add(const SumLine& other) {
-  begin_if_zero();
-  for (size_t i = 0; i < count; ++i)
-    add(i, (other.is_wide_ ? other.wide_words_[i] : Fixed(other.words_[i])) << other.shift_);
+  if (other.is_wide_)
+    add_exact([&](size_t i) { return other.wide_words_[i] << other.shift_; });
+  else
+    add_exact([&](size_t i) { return Fixed(other.words_[i]) << other.shift_; });
   for (const WideWord& wide : other.set_aside_) {
     set_aside(wide.place, 0);
     set_aside_[set_aside_at_[wide.place] - 1u].sum.add(wide.sum);

@@ -35,6 +35,11 @@ class SumLine {
   };
   void begin_if_zero();
   void add(size_t place, Fixed value);
+  template <typename ValueAt>
+  void add_exact(const ValueAt& value_at);
+  /// Whose sums have at most so many bits.
+  template <typename Words, typename ValueAt>
+  void add_each(Words& words, int most, const ValueAt& value_at);
   template <typename Number>
   void add_numbers(const std::array<Number, count>& values);
   void set_aside(size_t place, Fixed value);
