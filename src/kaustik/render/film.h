@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,13 @@ struct FilmHead {
   bool has_regions = false;
   uint64_t samples_per_pixel = 0;
   PassSet passes;
+};
+
+/// What a film holds beside the sums of its pixels.
+struct FilmFacts {
+  PassSet passes;
+  uint64_t samples_per_pixel = 0;  ///< on average
+  std::array<Fixed, replicate_count> mean_luminances{};
 };
 
 /// The picture as the sum of its finished passes and of their squares, in exact arithmetic: the
@@ -162,6 +170,18 @@ class Film {
   /// them there yet; holds a row of tiles of it at a time, and its regions. Returns passes that
   /// some pixel has in regions of both; if there are any, or it throws, this film is of no use.
   PassSet add(const FilmHead& head, BinaryReader& reader);
+
+  // The sums of all passes of the whole picture apart from all else, for films of other processes.
+  size_t sums_per_tile() const { return numbers_.count * PictureTiles::pixels; }
+  /// Of tiles from the first on, as many as there is room for: [tile][number][place].
+  void read_tiles(size_t first, std::span<Fixed> sums) const;
+  /// Adds such sums; add_facts() has to follow.
+  void add_tiles(size_t first, std::span<const Fixed> sums);
+  FilmFacts facts() const { return {passes_, sample_count_, mean_luminances_}; }
+  /// None of these passes was there.
+  void add_facts(const FilmFacts& facts);
+  /// All passes go, those of regions as well.
+  void clear();
 
   // Sums over all passes that pixels have.
   /// All sums of a tile's pixels: [place in the tile][number].

@@ -1,10 +1,13 @@
 #include "kaustik/render/job.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 
+#include "kaustik/base/bytes.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
@@ -25,6 +28,27 @@ uint64_t light_key(const Description& description, const Scene& scene) {
   if (const auto integrator = find_integrator(description))
     key = hash_mix(key, PartKeys().whole(*integrator));
   return key;
+}
+
+/// Passes of different scenes would not belong together. Throws in all members.
+void check_team(Team& team, const DescriptionDigest& digest) {
+  ByteWriter own;
+  own.put(digest.scene);
+  own.put(digest.integrator);
+  const auto digests = team.to_leader(own.take());
+  ByteWriter verdict;
+  uint32_t other = 0;
+  for (uint32_t rank = 1; rank < digests.size() && other == 0; ++rank)
+    if (digests[rank] != digests[0]) other = rank;
+  verdict.put(other);
+  const std::vector<uint8_t> found = team.from_leader(verdict.take());
+  other = ByteReader(found, "what was found of the scene").get<uint32_t>();
+  if (other > 0)
+    throw Error(ErrorKind::input,
+                fmt::format("process {} has another scene, or other files that it names, than "
+                            "process 0",
+                            other),
+                "let all of them see the same files: in a folder that is shared, or in copies");
 }
 
 }  // namespace
@@ -72,6 +96,7 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
     if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
     teach(run->prepared);
   });
+  if (settings_.session.team) check_team(*settings_.session.team, *run->prepared.digest);
   if (settings_.keeps_light && run->prepared.integrator) {
     run->light_key = light_key(description_, *run->prepared.scene);
     const bool is_same = settings_.light.key == run->light_key;
@@ -172,6 +197,7 @@ void Job::teach(const PreparedScene& prepared) const {
 void Job::make_session(Run& run) {
   SessionSettings settings = settings_.session;
   settings.keeps_passes = keeps_passes();
+  if (!settings_.checkpoint.empty()) settings.team_interval_s = settings_.every_s;
   if (settings_.learned && !settings.samples_per_pass &&
       !(settings.passes && settings.samples_per_pixel))
     settings.samples_per_pass = settings_.learned->samples_per_pass;
@@ -183,7 +209,8 @@ void Job::make_session(Run& run) {
     settings.seconds = std::max(least_s, *settings.seconds - gone.count());
   }
   const PreparedScene& prepared = run.prepared;
-  auto session = settings_.begun
+  // What it has begun with is the leader's.
+  auto session = settings_.begun && !is_follower()
                      ? std::make_unique<Session>(*prepared.scene, *prepared.integrator, settings,
                                                  std::move(settings_.begun->film))
                      : std::make_unique<Session>(*prepared.scene, *prepared.integrator, settings);
@@ -228,8 +255,9 @@ void Job::render() {
   const std::shared_ptr<Run> run = prepared_run();
   if (settings_.previews && begins_with_light(*run)) make_preview(*run);
   make_session(*run);
-  const bool keeps = !settings_.checkpoint.empty();
-  CheckpointKeeper keeper(settings_.checkpoint, settings_.owner, settings_.every_s, result_.record,
+  const std::string checkpoint = is_follower() ? "" : settings_.checkpoint;
+  const bool keeps = !checkpoint.empty();
+  CheckpointKeeper keeper(checkpoint, settings_.owner, settings_.every_s, result_.record,
                           *run->prepared.integrator, listener_.messages.warning);
   Session& session = *run->session;
   result_.report = session.run(stop_.get_token(), listener_.progress, [&] {
@@ -238,6 +266,7 @@ void Job::render() {
   });
   const SessionReport& report = result_.report;
   result_.record.seconds += report.seconds;
+  if (is_follower()) return;
   if (report.passes == 0 && !report.cancelled() && !session.has_picture()) {
     make_preview(*run);
     if (stop_.stop_requested()) result_.report.end = SessionEnd::cancelled;

@@ -48,7 +48,9 @@ struct JobSettings {
   RenderRecord record;
   /// Who asks for the recipe's integrator, for messages: "command line: --integrator".
   std::string integrator_origin = "integrator";
-  SessionSettings session;  ///< time counts from `clock_start` on
+  /// Time counts from `clock_start` on. Of a team only the leader keeps a checkpoint, which must be
+  /// given to all.
+  SessionSettings session;
   BuildOptions build;
   std::string checkpoint;  ///< file that finished passes are kept in; "": none
   CheckpointOwner owner = CheckpointOwner::one;  ///< of that file
@@ -190,7 +192,13 @@ class Job {
   void render();
   /// Hands the integrator what was learned before.
   void teach(const PreparedScene& prepared) const;
-  bool keeps_passes() const { return settings_.keeps_passes || !settings_.checkpoint.empty(); }
+  bool keeps_passes() const {
+    return settings_.keeps_passes || !settings_.checkpoint.empty() || settings_.session.team;
+  }
+  /// One of several processes that share the passes, and not the one whose film will hold all.
+  bool is_follower() const {
+    return settings_.session.team && !settings_.session.team->is_led_here();
+  }
   void make_session(Run& run);
   bool begins_with_light(const Run& run) const;
   void make_preview(Run& run);

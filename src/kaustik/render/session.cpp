@@ -10,6 +10,7 @@
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
 #include "kaustik/render/session_monitor.h"
+#include "kaustik/render/session_team.h"
 #include "kaustik/scene/scene_report.h"
 
 namespace kaustik {
@@ -146,6 +147,28 @@ std::optional<SessionEnd> Session::end_before(uint32_t index, const Monitor& mon
   return std::nullopt;
 }
 
+SessionEnd Session::run_alone(const std::stop_token& stop, Monitor& monitor,
+                              const std::function<void()>& pass_done) {
+  uint32_t next = film_.passes().first_missing(settings_.first_pass);
+  std::optional<SessionEnd> end = end_before(next, monitor);
+  const auto cut_short = [&] {
+    return stop.stop_requested() ? SessionEnd::cancelled : SessionEnd::time;
+  };
+  while (true) {
+    if (end != SessionEnd::time && render_regions(stop, monitor, pass_done) != PassEnd::complete)
+      end = cut_short();
+    if (end && close_regions(*end)) return *end;
+    if (end) continue;
+    const Pass pass{settings_.seed, next, samples_per_pass_, {}};
+    if (stop.stop_requested() || render_pass({pass, {}}, stop, monitor) != PassEnd::complete)
+      return cut_short();
+    monitor.pass_done();
+    if (pass_done) pass_done();
+    next = film_.passes().first_missing(next);
+    end = end_before(next, monitor);
+  }
+}
+
 SessionReport Session::run(std::stop_token stop,
                            const std::function<void(const Progress&)>& progress,
                            const std::function<void()>& pass_done) {
@@ -157,7 +180,7 @@ SessionReport Session::run(std::stop_token stop,
   const uint64_t refused_before = scene_.tracer().refused_rays();
   {
     const std::lock_guard lock(regions_mutex_);
-    takes_regions_ = true;
+    takes_regions_ = !settings_.team;
   }
   // What throws ends it, too.
   struct Closing {
@@ -166,32 +189,13 @@ SessionReport Session::run(std::stop_token stop,
   } const closing{*this};
   Monitor monitor(*this, progress);
   with_threads(settings_.threads, [&] {
-    uint32_t next = film_.passes().first_missing(settings_.first_pass);
-    std::optional<SessionEnd> end = end_before(next, monitor);
-    const auto cut_short = [&] {
-      return stop.stop_requested() ? SessionEnd::cancelled : SessionEnd::time;
-    };
-    while (true) {
-      if (end != SessionEnd::time && render_regions(stop, monitor, pass_done) != PassEnd::complete)
-        end = cut_short();
-      if (end && close_regions(*end)) break;
-      if (end) continue;
-      const Pass pass{settings_.seed, next, samples_per_pass_, {}};
-      if (stop.stop_requested() || render_pass({pass, {}}, stop, monitor) != PassEnd::complete) {
-        end = cut_short();
-        break;
-      }
-      monitor.pass_done();
-      if (pass_done) pass_done();
-      next = film_.passes().first_missing(next);
-      end = end_before(next, monitor);
-    }
-    report_.end = *end;
+    report_.end = settings_.team ? TeamRun(*this, monitor, stop, pass_done).run()
+                                 : run_alone(stop, monitor, pass_done);
   });
   report_.passes = film_.pass_count();
   report_.regional_passes = film_.regional_pass_count();
   // What it takes to tell the error, over all pixels, would keep those waiting who abandoned it.
-  if (is_pass_abandoned_ && report_.cancelled()) {
+  if (is_follower() || (is_pass_abandoned_ && report_.cancelled())) {
     report_.mean_error = report_.picture_error = std::numeric_limits<double>::infinity();
   } else {
     report_.mean_error = film_.mean_error();

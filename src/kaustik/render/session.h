@@ -11,6 +11,7 @@
 #include "kaustik/render/film.h"
 #include "kaustik/render/gate.h"
 #include "kaustik/render/pass_division.h"
+#include "kaustik/render/team.h"
 #include "kaustik/transport/integrator.h"
 
 namespace kaustik {
@@ -69,6 +70,13 @@ struct SessionSettings {
   std::function<double()> clock;
   /// Passes of regions: Session::refine(), from the begin.
   std::vector<RegionRequest> regions;
+  /// The processes that share the passes; null: this one renders all. What ends a session then is
+  /// the leader's to say, started passes are finished unless somebody cancels, regions get none of
+  /// their own, and in the end the leader's film holds all, the others' nothing.
+  std::shared_ptr<Team> team;
+  /// Of a team, about: the leader's film has all passes so far every so many seconds, and
+  /// `pass_done` is called then. Absent: at the end alone.
+  std::optional<double> team_interval_s;
   /// While it is closed no samples are taken, and no time counts; a light pass is finished all the
   /// same. Null: nobody closes it.
   std::shared_ptr<Gate> gate;
@@ -194,6 +202,7 @@ class Session {
 
  private:
   class Monitor;
+  class TeamRun;
   struct CameraPass;
   struct Round;
   struct RegionWork;
@@ -217,6 +226,11 @@ class Session {
   uint32_t most_samples_per_pass() const;
   /// Of a plan that says nothing but how much time there is.
   uint32_t samples_by_time() const;
+  /// The passes of a session without a team, and those of regions.
+  SessionEnd run_alone(const std::stop_token& stop, Monitor& monitor,
+                       const std::function<void()>& pass_done);
+  /// One of several that share the passes, and not the one whose film will hold all.
+  bool is_follower() const { return settings_.team && !settings_.team->is_led_here(); }
   PassRange planned() const;  ///< empty: limited by time or error
   /// Whether the error is small enough, where it is looked at.
   bool is_good_enough(double error) const;

@@ -57,7 +57,9 @@ double Session::Monitor::fraction(double elapsed_s) const {
     const double done = passes_done_ + passes_in(regions_done_);
     const double all =
         passes_to_do_ + passes_in(regions_done_) + passes_in(session_.waiting_work());
-    if (all > 0) f = (done + passes_in(pass)) / all;
+    // The others of a team are about as far.
+    const uint32_t at_a_time = session_.settings_.team ? session_.settings_.team->size() : 1;
+    if (all > 0) f = (done + at_a_time * passes_in(pass)) / all;
   }
   if (session_.settings_.error)
     f = std::max(f, (passes_at_start_ + passes_done_) / passes_for_error());

@@ -66,7 +66,7 @@ class Session::Monitor {
     light_done_ = 0;
     light_share_ = std::min(1.0, light_seconds / std::max(1e-9, elapsed()));
     // Those who abandon it want no error.
-    if (!session_.is_pass_abandoned_) error_ = session_.film_.picture_error();
+    if (!session_.is_pass_abandoned_ && !session_.settings_.team) find_error();
     tell(Progress::Stage::light, false);
   }
   /// Their passes may take less time than finding out the error of a large picture does, so that is
@@ -81,6 +81,9 @@ class Session::Monitor {
     }
     tell(Progress::Stage::light, is_last);
   }
+  /// Of other members of the team.
+  void others_done(uint32_t passes) { passes_done_ += passes; }
+  void find_error() { error_ = session_.film_.picture_error(); }
   uint32_t passes_done() const { return passes_done_; }
   double error() const { return error_; }
   double now() const {

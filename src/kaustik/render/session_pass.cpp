@@ -94,7 +94,8 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
       !integrator_.traits().samples_camera || render_camera(task, *state, stop, monitor);
   uint32_t samples = samples_per_pass_;
   // Of a region a part is of no use: there is a picture of it.
-  if (!complete && task.region) return PassEnd::discarded;
+  // Of a pass of a team, too: others' passes are left to be waited for.
+  if (!complete && (task.region || settings_.team)) return PassEnd::discarded;
   if (!complete) {
     samples = pass_.fewest_samples();
     if (samples == 0 || is_pass_abandoned_) return PassEnd::discarded;
@@ -162,7 +163,8 @@ bool Session::must_be_finished(const Monitor& monitor) const {
 }
 
 std::optional<double> Session::last_second(const Monitor& monitor) const {
-  if (!settings_.seconds || must_be_finished(monitor)) return std::nullopt;
+  // Who leaves out what a team has not finished in time prefers passes that take little.
+  if (!settings_.seconds || settings_.team || must_be_finished(monitor)) return std::nullopt;
   if (film_.pass_count() > 0) return settings_.seconds;
   return *settings_.seconds + std::max(least_patience, patience * *settings_.seconds);
 }

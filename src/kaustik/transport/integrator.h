@@ -12,6 +12,7 @@
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/component.h"
 #include "kaustik/transport/kept_light.h"
+#include "kaustik/transport/shared_lessons.h"
 #include "kaustik/transport/splat_buffer.h"
 
 namespace kaustik {
@@ -195,6 +196,10 @@ class Integrator {
   /// Goes on with lessons() of another one. Throws Error(input) if they are damaged or of another
   /// picture. Before the first prepare() and learn().
   virtual void go_on_with(const Lessons& /*lessons*/, LessonUse) {}
+  /// From now on prepared passes teach nothing by themselves, but what they teach can be taken here,
+  /// as long as the integrator lives. Null: nothing is learned from passes. Before the first
+  /// prepare() and learn(), after go_on_with().
+  virtual SharedLessons* share_lessons() const { return nullptr; }
   /// Keeps from now on the light of pass 0 for kept_light(), and begins with `light`, null: none,
   /// which an integrator of the same parameters has kept in a scene that differs by its camera and
   /// film alone. Light of another seed or other wavelengths is not used. Pictures have the same

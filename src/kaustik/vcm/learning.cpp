@@ -45,7 +45,47 @@ PassPlans VcmLearning::plans_for(const Pass& pass, const std::stop_token& stop,
 void VcmLearning::learn_from(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays) {
   const std::lock_guard lock(mutex_);
   if (fixed_ || !lessons_) return;
-  isolated([&] { lessons_->learn(traced, stop, rays); });
+  isolated([&] {
+    if (!is_shared_) return lessons_->learn(traced, stop, rays);
+    ByteWriter writer;
+    if (lessons_->write_taught(traced, writer, stop, rays))
+      taught_[traced.pass().index] = writer.take();
+  });
+}
+
+SharedLessons* VcmLearning::share() {
+  const std::lock_guard lock(mutex_);
+  is_shared_ = true;
+  return fixed_ ? nullptr : this;
+}
+
+std::optional<uint32_t> VcmLearning::epoch_end(uint32_t pass) const {
+  const std::lock_guard lock(mutex_);
+  return lessons_ ? lessons_->epoch_end(pass) : std::nullopt;
+}
+
+Lessons VcmLearning::lessons_for(const Pass& pass, const std::stop_token& stop,
+                                 const ProgressFunction& progress, PassReport& report) {
+  const std::lock_guard lock(mutex_);
+  return isolated([&]() -> Lessons {
+    begin_lessons(pass, stop, report);
+    if (stop.stop_requested()) return {};
+    lessons_->plans_for(pass, stop, progress, report);
+    return written_lessons();
+  });
+}
+
+std::vector<uint8_t> VcmLearning::take_taught(uint32_t pass) {
+  const std::lock_guard lock(mutex_);
+  const auto found = taught_.extract(pass);
+  return found.empty() ? std::vector<uint8_t>() : std::move(found.mapped());
+}
+
+void VcmLearning::add_taught(const Pass& pass, const std::vector<uint8_t>& taught) {
+  const std::lock_guard lock(mutex_);
+  if (taught.empty() || !lessons_) return;
+  ByteReader reader(taught, "what a pass has taught");
+  lessons_->add_taught(pass, reader);
 }
 
 PassReport VcmLearning::learn(const Pass& pass, const std::stop_token& stop,
@@ -66,6 +106,10 @@ PassReport VcmLearning::learn(const Pass& pass, const std::stop_token& stop,
 
 Lessons VcmLearning::lessons() const {
   const std::lock_guard lock(mutex_);
+  return written_lessons();
+}
+
+Lessons VcmLearning::written_lessons() const {
   if (!lessons_ || lessons_->end() == 0) return {};
   ByteWriter writer;
   lessons_->write(writer);

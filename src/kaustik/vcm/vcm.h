@@ -22,6 +22,7 @@ class VcmIntegrator final : public Integrator {
   void go_on_with(const Lessons& lessons, LessonUse use) override {
     learning_.go_on_with(lessons, use);
   }
+  SharedLessons* share_lessons() const override { return learning_.share(); }
   PassReport learn(const Pass& pass, std::stop_token stop,
                    const ProgressFunction& progress) const override {
     return learning_.learn(pass, stop, progress);

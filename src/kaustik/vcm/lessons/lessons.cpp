@@ -41,10 +41,20 @@ bool VcmLessons::serve(const Pass& pass) const {
          (epochs_.contains(epoch) || epoch >= passes_);
 }
 
-bool VcmLessons::is_next(const Pass& pass) const {
+std::optional<uint32_t> VcmLessons::epoch_end(uint32_t pass) const {
+  const uint32_t begin = epoch_begin(pass);
+  if (begin >= end_) return std::nullopt;
+  return std::min(end_, std::max(1u, 2 * begin));
+}
+
+bool VcmLessons::can_teach(const Pass& pass) const {
   // Sums of an epoch whose plans are still to be made stay as they are.
-  return !pass.is_regional() && serve(pass) && passes_ == pass.index && pass.index < end_ &&
+  return !pass.is_regional() && serve(pass) && pass.index < end_ &&
          epochs_.contains(epoch_begin(pass.index));
+}
+
+bool VcmLessons::is_next(const Pass& pass) const {
+  return can_teach(pass) && passes_ == pass.index;
 }
 
 LessonNeeds VcmLessons::needs_of(uint32_t pass) const {
@@ -54,14 +64,23 @@ LessonNeeds VcmLessons::needs_of(uint32_t pass) const {
   return needs;
 }
 
-void VcmLessons::take(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays) {
+std::vector<Lesson*> VcmLessons::taught_by(uint32_t pass) const {
+  std::vector<Lesson*> taught;
+  for (const auto& lesson : lessons_)
+    if (pass < lesson->end() && lesson->needs_of(pass).any()) taught.push_back(lesson.get());
+  return taught;
+}
+
+std::vector<std::unique_ptr<LessonSums>> VcmLessons::sums_of(const VcmPass& traced,
+                                                             const std::vector<Lesson*>& lessons,
+                                                             const std::stop_token& stop,
+                                                             uint64_t& rays) const {
   const BlockGrid& grid = traced.plans().pixels.seen().grid();
   const TakeSample sample = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
     traced.sample(grid.window().in_crop(raster), sampler, sink);
   };
-  std::vector<std::pair<Lesson*, std::unique_ptr<LessonSums>>> sums;
-  for (const auto& lesson : lessons_) {
-    if (passes_ >= lesson->end() || !lesson->needs_of(passes_).any()) continue;
+  std::vector<std::unique_ptr<LessonSums>> sums;
+  for (const Lesson* lesson : lessons) {
     const std::vector<TrainingPlace> places = lesson->places(traced.pass());
     const std::vector<TrainingPair> pairs = training_pairs({.grid = grid,
                                                             .filter = scene_.film().filter,
@@ -70,14 +89,46 @@ void VcmLessons::take(const VcmPass& traced, const std::stop_token& stop, uint64
                                                             .take = sample},
                                                            places, stop);
     for (const TrainingPair& pair : pairs) rays += pair.rays[0] + pair.rays[1];
-    if (stop.stop_requested()) return;
-    sums.emplace_back(
-        lesson.get(),
+    if (stop.stop_requested()) return {};
+    sums.push_back(
         lesson->sums_of({.light = traced.light(), .places = places, .pairs = pairs}, stop));
   }
-  if (stop.stop_requested()) return;
-  for (const auto& [lesson, of_pass] : sums) lesson->add(passes_, *of_pass);
+  if (stop.stop_requested()) return {};
+  return sums;
+}
+
+void VcmLessons::add(const std::vector<Lesson*>& lessons,
+                     const std::vector<std::unique_ptr<LessonSums>>& sums) {
+  for (size_t i = 0; i < lessons.size(); ++i) lessons[i]->add(passes_, *sums[i]);
   ++passes_;
+}
+
+void VcmLessons::take(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays) {
+  const std::vector<Lesson*> lessons = taught_by(passes_);
+  const auto sums = sums_of(traced, lessons, stop, rays);
+  if (!stop.stop_requested()) add(lessons, sums);
+}
+
+bool VcmLessons::write_taught(const VcmPass& traced, ByteWriter& writer,
+                              const std::stop_token& stop, uint64_t& rays) const {
+  const Pass& pass = traced.pass();
+  if (!can_teach(pass)) return false;
+  const std::vector<Lesson*> lessons = taught_by(pass.index);
+  const auto sums = sums_of(traced, lessons, stop, rays);
+  if (stop.stop_requested()) return false;
+  writer.put(uint64_t(lessons.size()));
+  for (const auto& of_lesson : sums) of_lesson->write(writer);
+  return true;
+}
+
+void VcmLessons::add_taught(const Pass& pass, ByteReader& reader) {
+  if (!is_next(pass)) return;
+  const std::vector<Lesson*> lessons = taught_by(pass.index);
+  if (reader.get<uint64_t>() != lessons.size()) reader.damaged("it is of other lessons");
+  std::vector<std::unique_ptr<LessonSums>> sums;
+  for (const Lesson* lesson : lessons) sums.push_back(lesson->read_sums(reader));
+  reader.expect_end();
+  add(lessons, sums);
 }
 
 void VcmLessons::learn(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kaustik/vcm/lessons/lesson.h"
@@ -35,6 +36,8 @@ class VcmLessons {
   uint32_t end() const { return end_; }
   /// First pass of the epoch that a pass belongs to: 0, 1, 2, 4, 8 …
   uint32_t epoch_begin(uint32_t pass) const;
+  /// First pass of the next epoch; none if there is none.
+  std::optional<uint32_t> epoch_end(uint32_t pass) const;
   /// Whether the pass is of their seed and samples, and the plans of its epoch can still be made or
   /// are there.
   bool serve(const Pass& pass) const;
@@ -47,6 +50,12 @@ class VcmLessons {
   /// Learns from a pass whose light paths have been traced by plans_for(), if it is the next one:
   /// passes out of order are traced anew where they are needed. Counts the rays.
   void learn(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays);
+  /// What such a pass teaches, one of an epoch whose plans are there, for add_taught() of others.
+  /// False: it teaches nothing, or it was stopped.
+  bool write_taught(const VcmPass& traced, ByteWriter& writer, const std::stop_token& stop,
+                    uint64_t& rays) const;
+  /// Learns from the pass if it is the next one. Throws as ByteReader does.
+  void add_taught(const Pass& pass, ByteReader& reader);
   /// Learns from all passes before `until` that have not taught yet, passes like `pass`. Returns
   /// how many those were.
   uint32_t make_up(const Pass& pass, uint32_t until, const std::stop_token& stop,
@@ -64,7 +73,19 @@ class VcmLessons {
  private:
   /// What all lessons together ask of a pass.
   LessonNeeds needs_of(uint32_t pass) const;
+  /// It teaches something, and the plans that it goes by are there.
+  bool can_teach(const Pass& pass) const;
   bool is_next(const Pass& pass) const;
+  /// Those that such a pass teaches, in their order.
+  std::vector<Lesson*> taught_by(uint32_t pass) const;
+  /// What the pass adds to each of these; nothing if it was stopped.
+  std::vector<std::unique_ptr<LessonSums>> sums_of(const VcmPass& traced,
+                                                   const std::vector<Lesson*>& lessons,
+                                                   const std::stop_token& stop,
+                                                   uint64_t& rays) const;
+  /// Of the next pass.
+  void add(const std::vector<Lesson*>& lessons,
+           const std::vector<std::unique_ptr<LessonSums>>& sums);
   /// Learns from the next pass; nothing if it was stopped.
   void take(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays);
   /// Traces the next pass as far as is needed, and learns from it.

@@ -1,0 +1,43 @@
+#pragma once
+// What the members of a team tell one another between passes.
+
+#include <cstdint>
+#include <vector>
+
+#include "kaustik/render/session.h"
+
+namespace kaustik {
+
+/// What the leader wants of all members next.
+struct TeamOrder {
+  enum class Kind : uint8_t { render, add_up, end };
+  Kind kind = Kind::end;
+  SessionEnd end = SessionEnd::passes;
+  /// To be rendered: the i-th of them by the member of rank i mod the team's size.
+  PassSet passes;
+  /// What they go by; empty: as before, or nothing is learned.
+  Lessons lessons;
+
+  std::vector<uint32_t> of_member(uint32_t rank, uint32_t members) const;
+  std::vector<uint8_t> bytes() const;
+  /// Throws Error(input) if they are damaged.
+  static TeamOrder from(const std::vector<uint8_t>& bytes);
+};
+
+/// What has come of a member's passes.
+struct TeamReport {
+  struct DonePass {
+    uint32_t pass = 0;
+    std::vector<uint8_t> taught;  ///< SharedLessons::take_taught()
+  };
+  std::vector<DonePass> passes;
+  double slowest_s = 0;  ///< of these passes
+  bool is_stopped = false;
+  uint64_t rays = 0, photons = 0, dropped = 0;
+
+  std::vector<uint8_t> bytes() const;
+  /// Throws Error(input) if they are damaged.
+  static TeamReport from(const std::vector<uint8_t>& bytes);
+};
+
+}  // namespace kaustik
