@@ -161,6 +161,7 @@ BEGIN {
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("zlib", "^zlib", "base", not_in_word "z_stream")
   own("pybind11", "^pybind11/", "python", not_in_word "pybind11::")
+  own("MPI", "^mpi\\.h", "apps", not_in_word "MPI_[A-Z]")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")

@@ -19,6 +19,7 @@
 #include "picture_output.h"
 #include "progress_options.h"
 #include "render_job.h"
+#include "render_team.h"
 #include "scene_options.h"
 #include "screen.h"
 #include "standard_streams.h"
@@ -121,6 +122,14 @@ void tell_of_learning(const std::optional<Object>& integrator, const RenderOptio
                     type));
 }
 
+/// What is written, shown and told, the leader does.
+void leave_to_leader(RenderOptions& options) {
+  options.outputs.files.clear();
+  options.progress = {};
+  options.progress.quiet = true;
+  options.views = {};
+}
+
 void render(RenderOptions options) {
   JobSettings job;
   RenderRecipe& recipe = options.recipe;
@@ -134,10 +143,12 @@ void render(RenderOptions options) {
     check_program(*options.learned, job.learned->program, KAUSTIK_VERSION);
   }
   name_picture(options);
+  job.session = session_settings(options);
+  job.session.team = render_team();
+  if (is_follower()) leave_to_leader(options);
   sort_settings(options);
   check_outputs(options.outputs, roles);
   const bool goes_on = check_checkpoint(options, roles);
-  job.session = session_settings(options);
   job.checkpoint = options.checkpoint.value_or("");
   if (options.resume_if_there) job.owner = CheckpointOwner::perhaps_several;
   job.every_s = parse_duration(options.every, "--every");
@@ -147,6 +158,8 @@ void render(RenderOptions options) {
   recipe.definitions = parse_definitions(options.definitions);
   begin_events(options.progress, roles, "render", recipe.scene);
   job.session.threads = usable_threads(options.threads, options.progress.quiet);
+  if (render_team() && !options.progress.quiet)
+    note(fmt::format("{} processes share the passes", render_team()->size()));
   Description description = load_description(recipe);
   roles.reads(description);
   roles.check();

@@ -17,6 +17,7 @@
 #include "meter_values.h"
 #include "picture_output.h"
 #include "picture_watch.h"
+#include "render_team.h"
 #include "scene_search.h"
 #include "screen.h"
 #include "signals.h"
@@ -94,6 +95,15 @@ JsonObject result_facts(const JobResult& result, const Job& job) {
   return facts;
 }
 
+/// Its part of the passes, of which the leader makes the picture.
+void run_follower(Description description, JobSettings settings) {
+  Job job(std::move(description), std::move(settings));
+  job.prepare();
+  const InterruptGuard interrupt;
+  const std::stop_callback forward(interrupt.token(), [&] { job.cancel(); });
+  if (job.run().report.cancelled()) throw EndedEarly{};
+}
+
 }  // namespace
 
 LoadOptions load_options(std::vector<std::pair<std::string, std::string>> definitions,
@@ -146,6 +156,7 @@ void run_to_the_end(Job& job, const JobDisplay& display,
 
 void run_job(Description description, JobSettings settings, const JobDisplay& display,
              const std::function<void()>& prepared) {
+  if (is_follower()) return run_follower(std::move(description), std::move(settings));
   const std::string checkpoint = settings.checkpoint;
   const SessionSettings session = settings.session;
   const OutputPlan outputs = settings.record.outputs;

@@ -1,0 +1,221 @@
+// Several processes that share a picture's passes: the same bits as of one. Here they are threads.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "kaustik/render/film_reduction.h"
+#include "kaustik/render/job.h"
+#include "kaustik/render/team_messages.h"
+#include "tests/support/film.h"
+#include "tests/support/local_team.h"
+#include "tests/support/same_bits.h"
+#include "tests/support/scripted_integrator.h"
+#include "tests/support/temporary_folder.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+Description team_room(const std::string& integrator) {
+  return parse_mitsuba_xml(
+      "<scene version=\"3.0.0\"><integrator type=\"" + integrator +
+          "\"/><sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/>"
+          "<transform name=\"to_world\"><lookat origin=\"0,-4,2\" target=\"0,0,0.5\" "
+          "up=\"0,0,1\"/></transform>" +
+          film_of(12, 12) + "</sensor>" + room + "</scene>",
+      "test.xml", "");
+}
+
+/// What the leader has in the end.
+struct Outcome {
+  Image image;
+  Lessons lessons;
+  SessionReport report;
+};
+
+class TeamTest : public testing::Test {
+ protected:
+  static JobSettings settings_of(uint32_t passes) {
+    JobSettings settings;
+    settings.session.passes = passes;
+    settings.session.samples_per_pass = 2;
+    settings.session.threads = 1;
+    settings.keeps_passes = true;
+    return settings;
+  }
+
+  static Outcome outcome_of(Job& job) {
+    Outcome outcome;
+    outcome.report = job.run().report;
+    outcome.image = job.image();
+    outcome.lessons = job.checkpoint().lessons;
+    return outcome;
+  }
+
+  static Outcome alone(const std::string& integrator, JobSettings settings) {
+    Job job(team_room(integrator), std::move(settings));
+    return outcome_of(job);
+  }
+
+  static Outcome together(uint32_t members, const std::string& integrator,
+                          const JobSettings& settings) {
+    Outcome outcome;
+    LocalTeam(members).run([&](const std::shared_ptr<Team>& member) {
+      JobSettings own = settings;
+      own.session.team = member;
+      Job job(team_room(integrator), std::move(own));
+      if (member->is_led_here())
+        outcome = outcome_of(job);
+      else
+        job.run();
+    });
+    return outcome;
+  }
+
+  TemporaryFolder folder_;
+};
+
+class TeamBits : public TeamTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(TeamBits, AreThoseOfOne) {
+  // Beyond several epochs, and not a multiple of the members.
+  const JobSettings settings = settings_of(21);
+  const Outcome one = alone(GetParam(), settings);
+  for (const uint32_t members : {1, 2, 3, 4, 7}) {
+    const Outcome all = together(members, GetParam(), settings);
+    EXPECT_TRUE(same_bits(all.image, one.image)) << members;
+    EXPECT_EQ(all.lessons, one.lessons) << members;
+    EXPECT_EQ(all.report.passes, 21u);
+    EXPECT_EQ(all.report.end, SessionEnd::passes);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, TeamBits,
+                         testing::Values("path", "auto", "bdpt", "ppm", "photonmap"));
+
+TEST_F(TeamTest, StopsWhereOneWouldByItsError) {
+  JobSettings settings = settings_of(0);
+  settings.session.passes.reset();
+  settings.session.error = 0.2;
+  const Outcome one = alone("path", settings);
+  ASSERT_EQ(one.report.end, SessionEnd::error);
+  const Outcome all = together(3, "path", settings);
+  EXPECT_EQ(all.report.end, SessionEnd::error);
+  EXPECT_EQ(all.report.passes, one.report.passes);
+  EXPECT_TRUE(same_bits(all.image, one.image));
+}
+
+TEST_F(TeamTest, GoesOnWithACheckpointOfAnyNumber) {
+  const Outcome one = alone("auto", settings_of(13));
+  JobSettings begin = settings_of(5);
+  begin.checkpoint = folder_.path("a.kpt");
+  begin.every_s = 0;
+  together(3, "auto", begin);
+  Checkpoint begun = read_checkpoint(folder_.path("a.kpt"));
+  EXPECT_EQ(begun.film.passes().text(), "0–4");
+  EXPECT_EQ(begun.lessons.passes, 5u);
+  JobSettings more = settings_of(13);
+  more.record = begun.record;
+  more.begun = std::move(begun);
+  EXPECT_TRUE(same_bits(together(2, "auto", more).image, one.image));
+}
+
+TEST_F(TeamTest, OneWhoStopsStopsAll) {
+  for (const uint32_t who : {0, 1, 2}) {
+    Outcome outcome;
+    LocalTeam(3).run([&](const std::shared_ptr<Team>& member) {
+      JobSettings own = settings_of(1000);
+      own.session.team = member;
+      std::atomic<Job*> self = nullptr;
+      std::atomic<int> told = 0;
+      Job job(team_room("path"), std::move(own),
+              {.messages = {}, .progress = {}, .pass_done = [&](const Film&) {
+                 if (member->rank() == who && ++told == 3) self.load()->cancel();
+               }});
+      self = &job;
+      // Only the leader is told of passes.
+      std::jthread other;
+      if (member->rank() == who && who > 0)
+        other = std::jthread([&] {
+          std::this_thread::sleep_for(std::chrono::milliseconds(50));
+          job.cancel();
+        });
+      if (member->is_led_here())
+        outcome = outcome_of(job);
+      else
+        EXPECT_EQ(job.run().report.end, SessionEnd::cancelled);
+    });
+    EXPECT_EQ(outcome.report.end, SessionEnd::cancelled);
+    EXPECT_LT(outcome.report.passes, 1000u);
+  }
+}
+
+TEST_F(TeamTest, OtherScenesAreRefused) {
+  std::atomic<int> refused = 0;
+  LocalTeam(3).run([&](const std::shared_ptr<Team>& member) {
+    JobSettings own = settings_of(2);
+    own.session.team = member;
+    Job job(team_room(member->rank() == 2 ? "bdpt" : "path"), std::move(own));
+    try {
+      job.prepare();
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("process 2 has another scene"), std::string::npos)
+          << error.what();
+      ++refused;
+    }
+  });
+  EXPECT_EQ(refused, 3);
+}
+
+TEST_F(TeamTest, FilmsAreAddedUp) {
+  const auto film_with = [](PassRange passes) {
+    Film film(film_of_size(40, 19), {ComponentSet::all()});
+    for (uint32_t pass = passes.begin; pass < passes.end; ++pass)
+      film.add_pass(tiled(grey_pixels(40 * 19, float(1 + pass)), film), pass, 2);
+    return film;
+  };
+  const Film whole = film_with({0, 6});
+  LocalTeam(3).run([&](const std::shared_ptr<Team>& member) {
+    Film film = film_with({2 * member->rank(), 2 * member->rank() + 2});
+    add_films(*member, film);
+    if (!member->is_led_here()) {
+      EXPECT_EQ(film.pass_count(), 0u);
+      return;
+    }
+    EXPECT_EQ(film.passes().text(), "0–5");
+    EXPECT_EQ(film.samples_per_pixel(), 12u);
+    EXPECT_TRUE(same_bits(film.image(), whole.image()));
+  });
+}
+
+TEST(TeamMessages, ComeBackAsTheyWere) {
+  TeamOrder order{TeamOrder::Kind::render, SessionEnd::time, {}, {3, {1, 2, 3}}};
+  order.passes.add({2, 5});
+  order.passes.add({9, 10});
+  const TeamOrder read = TeamOrder::from(order.bytes());
+  EXPECT_EQ(read.kind, order.kind);
+  EXPECT_EQ(read.end, order.end);
+  EXPECT_EQ(read.lessons, order.lessons);
+  EXPECT_EQ(read.of_member(0, 3), (std::vector<uint32_t>{2, 9}));
+  EXPECT_EQ(read.of_member(2, 3), (std::vector<uint32_t>{4}));
+  std::vector<uint8_t> bytes = order.bytes();
+  bytes.pop_back();
+  EXPECT_THROW(TeamOrder::from(bytes), Error);
+
+  TeamReport report;
+  report.passes = {{4, {7, 8}}, {6, {}}};
+  report.is_stopped = true;
+  report.rays = 5;
+  const TeamReport back = TeamReport::from(report.bytes());
+  ASSERT_EQ(back.passes.size(), 2u);
+  EXPECT_EQ(back.passes[0].taught, (std::vector<uint8_t>{7, 8}));
+  EXPECT_EQ(back.passes[1].pass, 6u);
+  EXPECT_TRUE(back.is_stopped);
+  EXPECT_EQ(back.rays, 5u);
+}
+
+}  // namespace
+}  // namespace kaustik
