@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, coverage, package, package-test, bare, bench, python,
-# wheel, notebooks, view, docs. Asks nothing, and needs no network when everything is there already.
+# Installs the Debian packages of the named groups: build, check, coverage, package, package-test, bare, bench, mpi,
+# python, wheel, notebooks, view, docs. Asks nothing, and needs no network when everything is there already.
 set -euo pipefail
 
 build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
@@ -12,6 +12,7 @@ package=(dpkg-dev file patchelf)
 package_test=(qemu-user)
 bare=(mmdebstrap)
 bench=(blender povray)
+mpi=(libopenmpi-dev openmpi-bin)
 python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
 wheel=(patchelf)
 notebooks=(python3-nbclient python3-nbformat python3-ipykernel python3-matplotlib)
@@ -30,12 +31,13 @@ for group in "$@"; do
     package-test) wanted+=("${package_test[@]}") ;;
     bare) wanted+=("${bare[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
+    mpi) wanted+=("${mpi[@]}") ;;
     python) wanted+=("${python[@]}") ;;
     wheel) wanted+=("${wheel[@]}") ;;
     notebooks) wanted+=("${notebooks[@]}") ;;
     view) wanted+=("${view[@]}") ;;
     docs) wanted+=("${docs[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package, package-test, bare, bench, python, wheel, notebooks, view and docs" >&2; exit 2 ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, package-test, bare, bench, mpi, python, wheel, notebooks, view and docs" >&2; exit 2 ;;
   esac
 done
 
