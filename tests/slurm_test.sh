@@ -52,7 +52,7 @@ SlurmdPort=$((port + 1))
 SlurmUser=$(id -un)
 SlurmdUser=$(id -un)
 AuthType=auth/munge
-AuthInfo=socket=$work/munge/socket,cred_expire=5
+AuthInfo=socket=$work/munge/socket,cred_expire=120
 StateSaveLocation=$work/state
 SlurmdSpoolDir=$work/spool
 SlurmctldPidFile=$work/slurmctld.pid
@@ -94,13 +94,13 @@ array=$(squeue -h -o %F | sort -n | head -1)
 
 # One in its midst.
 has_checkpoint() { [[ -s scene.parts/part_$1.kpt ]]; }
-until_true 200 "a checkpoint of part 1" has_checkpoint 1
+until_true 900 "a checkpoint of part 1" has_checkpoint 1
 scontrol requeue "${array}_1"
 # All that run.
-until_true 200 "a checkpoint of part 3" has_checkpoint 3
+until_true 900 "a checkpoint of part 3" has_checkpoint 3
 sbatch --partition=high --cpus-per-task="$(nproc)" --output=high.log --wrap="sleep 2" --wait >/dev/null
 is_done() { [[ -z $(squeue -h 2>/dev/null) ]]; }
-until_true 900 "all jobs" is_done
+until_true 3000 "all jobs" is_done
 
 [[ -s scene.parts/picture.exr ]] || fail "there is no picture"
 went_on=$(grep -l "goes on: passes" scene.parts/log/part_*.txt | wc -l)

@@ -12,6 +12,13 @@ namespace {
 /// That one thread adds, one after the other, with the same buffers.
 constexpr size_t tiles_per_reading = 8;
 
+/// Where the next sum of each pixel of a tile begins.
+using PackedPixels = std::array<const uint8_t*, PictureTiles::pixels>;
+
+bool are_zero(const PackedPixels& sums) {
+  return std::ranges::all_of(sums, [](const uint8_t* sum) { return *sum == packed_zero; });
+}
+
 void put_passes(BinaryWriter& writer, const PassSet& passes) {
   writer.put(uint64_t(passes.ranges().size()));
   for (const PassRange& range : passes.ranges()) {
@@ -203,13 +210,19 @@ void Film::add_rows(BinaryReader& reader) {
     parallel_blocks(across, tiles_per_reading, [&](size_t begin, size_t end, size_t) {
       TilePacker packer(numbers_.count);
       for (size_t tile = first + begin; tile < first + end; ++tile) {
-        std::array<const uint8_t*, PictureTiles::pixels> packed;
+        PackedPixels packed;
         packed.fill(zeros.data());
         tiles_.for_pixels_of(tile, [&](int x, int y, size_t place) {
           packed[place] = of_pixels.list(size_t(y - y0) * size_t(size_.x) + size_t(x));
         });
         packer.begin(sums_[tile]);
         for (size_t number = 0; number < numbers_.count; ++number) {
+          // Such are the replicates that a part has no pass of.
+          if (are_zero(packed)) {
+            for (const uint8_t*& sum : packed) ++sum;
+            packer.keep();
+            continue;
+          }
           std::array<Fixed, PictureTiles::pixels> line;
           for (size_t place = 0; place < line.size(); ++place)
             line[place] = take_sum(packed[place]);

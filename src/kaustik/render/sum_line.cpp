@@ -63,6 +63,8 @@ WindowEnd best_end(int bits, const CountAt& count_at) {
       const int cost = set_aside + core * int(words_per_line) + few * (end - core) + bits_of_flags +
                        price_of_split;
       if (cost < least) least = cost, best = {core, end - core};
+      // No fewer have bits beyond a smaller core: it spares this at most.
+      if (cost - core * (int(words_per_line) - few) >= least) break;
     }
     outside += count_at(end);
   }
