@@ -58,7 +58,7 @@ void add_commands(CLI::App& program) {
   const Group groups[] = {{"Scenes", {add_example, add_info, add_convert, add_test}},
                           {"Render", {add_render, add_view, add_resume, add_photons, add_learn}},
                           {"Pictures", {add_tonemap, add_compare, add_denoise}},
-                          {"Parts", {add_merge, add_stitch}},
+                          {"Parts", {add_batch, add_merge, add_stitch}},
                           {"Help", {add_help, add_man, add_completion}}};
   for (const Group& group : groups)
     for (const auto add : group.commands) {

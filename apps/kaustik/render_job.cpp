@@ -11,6 +11,8 @@
 #include "events.h"
 #include "exit_codes.h"
 #include "failures.h"
+#include "kaustik/base/photometric_units.h"
+#include "kaustik/render/film_errors.h"
 #include "kaustik/render/measurements.h"
 #include "kaustik/render/part_picture.h"
 #include "kaustik/scene/scene.h"
@@ -81,6 +83,19 @@ std::string end_reason(const SessionReport& report, const SessionSettings& sessi
   return session.samples_per_pixel && !session.passes ? "samples" : "passes";
 }
 
+/// The mean of the picture, with the interval that holds the true one with a chance of 95 %.
+JsonObject mean_facts(const Job& job) {
+  const Film& film = job.film();
+  JsonObject facts;
+  if (film.pass_count() == 0) return facts;
+  const ConfidenceInterval interval =
+      FilmErrors(film).known(PixelRegion{0, 0, film.width(), film.height()}).interval();
+  const bool is_irradiance = job.scene().quantity() == Quantity::irradiance;
+  return facts.add("mean", lumens_per_watt_white * interval.mean)
+      .add("mean_half_width", lumens_per_watt_white * interval.half_width)
+      .add("unit", is_irradiance ? "lx" : "cd/m²");
+}
+
 JsonObject result_facts(const JobResult& result, const Job& job) {
   const SessionReport& report = result.report;
   JsonObject facts;
@@ -90,6 +105,7 @@ JsonObject result_facts(const JobResult& result, const Job& job) {
       .add("elapsed_s", report.seconds)
       .add("error", report.picture_error)
       .add("mean_error", report.mean_error)
+      .append(mean_facts(job))
       .add("rays", report.rays);
   return facts;
 }
