@@ -10,7 +10,7 @@ namespace kaustik {
 namespace {
 
 /// That one thread adds, one after the other, with the same buffers.
-constexpr size_t tiles_per_block = 8;
+constexpr size_t tiles_per_reading = 8;
 
 void put_passes(BinaryWriter& writer, const PassSet& passes) {
   writer.put(uint64_t(passes.ranges().size()));
@@ -200,7 +200,7 @@ void Film::add_rows(BinaryReader& reader) {
     const int y0 = int(first / across) * PictureTiles::side;
     const auto rows = size_t(std::min(PictureTiles::side, size_.y - y0));
     of_pixels.read(reader, rows * size_t(size_.x));
-    parallel_blocks(across, tiles_per_block, [&](size_t begin, size_t end, size_t) {
+    parallel_blocks(across, tiles_per_reading, [&](size_t begin, size_t end, size_t) {
       TilePacker packer(numbers_.count);
       for (size_t tile = first + begin; tile < first + end; ++tile) {
         std::array<const uint8_t*, PictureTiles::pixels> packed;
