@@ -11,6 +11,8 @@ namespace kaustik::app {
 struct OutputOptions {
   PictureFacts facts;
   bool quiet = false;  ///< says nothing of the files
+  /// Of the scene that a film belongs to; null: it is not known, and tables cannot be written.
+  const Scene* scene = nullptr;
 };
 
 /// Whether a picture is as far as the render was to go.
@@ -25,7 +27,8 @@ void check_outputs(const OutputPlan& outputs, FileRoles& roles);
 bool needs_layers(const OutputPlan& outputs);
 
 /// Writes the film's picture, or what `picture` makes of it, to all the files of the record's plan,
-/// with what is known of it as metadata; those that cannot be made or written go to `failures`.
+/// with what is known of it as metadata, and tables of what its meter shows; those that cannot be
+/// made or written go to `failures`.
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
                     Failures& failures, PictureState state,
                     const std::function<Image()>& picture = {});

@@ -195,10 +195,11 @@ void add_render(CLI::App& program) {
           ->add_option(
               "-o,--output", options->outputs.files,
               "Image to write; the extension gives the format: exr, hdr, pfm, tif (LogLuv), png, "
-              "jpg, ppm; - or png:- for standard output; may be repeated [SCENE.exr]")
+              "jpg, ppm, and csv for a table of what a meter shows; - or png:- for standard "
+              "output; may be repeated [SCENE.exr]")
           ->take_all()
           ->allow_extra_args(false),
-      written_extensions());
+      rendered_extensions());
   add_definitions(*command, options->definitions);
   add_strict(*command, options->recipe.is_strict);
   add_camera(*command, options->recipe.camera);

@@ -16,6 +16,7 @@
 #include "kaustik/render/measurements.h"
 #include "kaustik/render/part_picture.h"
 #include "kaustik/scene/scene.h"
+#include "meter_table.h"
 #include "meter_values.h"
 #include "picture_output.h"
 #include "picture_watch.h"
@@ -178,6 +179,7 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
            },
            {}});
   job.prepare();
+  check_tables(outputs, job.scene());
   if (prepared) prepared();
   // It looks at the job until it is gone itself.
   PictureWatch watch(job, std::move(viewers), [&] { return write_snapshot(job, outputs); });
@@ -202,8 +204,8 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
   Failures failures;
   if (result.checkpoint_failure)
     failures.attempt(checkpoint, [&] { std::rethrow_exception(result.checkpoint_failure); });
-  write_pictures(job.film(), result.record, {job.picture_facts(), display.quiet}, failures,
-                 report.cancelled() ? PictureState::ended_early : PictureState::finished,
+  write_pictures(job.film(), result.record, {job.picture_facts(), display.quiet, &job.scene()},
+                 failures, report.cancelled() ? PictureState::ended_early : PictureState::finished,
                  [&] { return is_first_look ? first_look(job) : job.image(); });
   watch.finish_viewers();
   failures.throw_if_any();

@@ -179,7 +179,7 @@ void add_resume(CLI::App& program) {
                                "below the checkpoint's folder]")
                   ->take_all()
                   ->allow_extra_args(false),
-              written_extensions());
+              rendered_extensions());
   auto* passes =
       command->add_option("--passes", o->passes, "Number of passes, including finished ones")
           ->check(whole_number(1, 1 << 30));

@@ -1,6 +1,7 @@
 // What `kaustik render` tells of meters: lux and cd/m², with intervals.
 
 #include <cstdlib>
+#include <sstream>
 
 #include "tests/apps/program.h"
 
@@ -82,6 +83,49 @@ TEST_F(MeterValues, PicturesHaveNone) {
   EXPECT_FALSE(contains(result.err, "luminance: ")) << result.err;
   EXPECT_TRUE(contains(result.err, "mean of the picture")) << result.err;
   EXPECT_FALSE(contains(contents("events.jsonl"), "measured"));
+}
+
+/// Up, and to the side, where half of what is below the horizon is missing: all of the sky shines.
+TEST_F(MeterValues, OfAFileOfPointsAreATable) {
+  write("points.txt", "# x y z  nx ny nz\n0 0 1  0 0 1\n2.5 0 1  1 0 0\n");
+  write_scene(
+      "<sensor type=\"irradiancepoints\"><string name=\"filename\" "
+      "value=\"points.txt\"/></sensor>");
+  const RunResult result = run_well({"render", "scene.xml", "--passes", "16", "--spp", "4096",
+                                     "--progress-file", "events.jsonl", "-o", "lux.csv"});
+  EXPECT_TRUE(contains(result.err, "wrote lux.csv")) << result.err;
+  EXPECT_TRUE(contains(contents("events.jsonl"), R"({"event":"written","file":"lux.csv")"));
+  std::istringstream table(contents("lux.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "x,y,z,value,half_width,unit");
+  for (const std::string& start : {"0,0,1,", "2.5,0,1,"}) {
+    std::getline(table, line);
+    ASSERT_TRUE(line.starts_with(start)) << line;
+    EXPECT_TRUE(line.ends_with(",lx")) << line;
+    expect_illuminance(number_behind(line, start));
+  }
+  EXPECT_FALSE(std::getline(table, line));
+}
+
+TEST_F(MeterValues, TablesAreOfMetersAlone) {
+  write_scene("<sensor type=\"perspective\">" + film + "</sensor>");
+  const RunResult result = run({"render", "scene.xml", "--passes", "1", "-o", "lux.csv"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "'lux.csv' is a table of what a meter shows")) << result.err;
+  EXPECT_TRUE(contains(result.err, "--camera ID")) << result.err;
+  EXPECT_FALSE(exists("lux.csv"));
+}
+
+// A checkpoint has no scene with it.
+TEST_F(MeterValues, TablesNeedTheScene) {
+  write_scene(point);
+  run_well({"render", "scene.xml", "--passes", "2", "--checkpoint", "a.kpt", "-o", "a.exr"});
+  const RunResult merged = run({"merge", "a.kpt", "-o", "lux.csv"});
+  EXPECT_EQ(merged.exit_code, 2);
+  EXPECT_TRUE(contains(merged.err, "kaustik resume FILE.kpt -o lux.csv")) << merged.err;
+  run_well({"resume", "a.kpt", "-o", "lux.csv"});
+  EXPECT_TRUE(contains(contents("lux.csv"), "\n1,2,3,"));
 }
 
 // The size of a film that the scene lacks has no effect: points tell their own.

@@ -221,6 +221,22 @@ TEST(NoriErrors, HaveAPlaceAndARemedy) {
   EXPECT_NE(problems(deep + "</scene>")[0].message.find("nest more than"), std::string::npos);
 }
 
+/// The picture is made of what is there.
+TEST(NoriMissing, FilesLeaveStandIns) {
+  const std::string inside =
+      "<mesh type=\"obj\"><string name=\"filename\" value=\"no.obj\"/></mesh>"
+      "<mesh type=\"sphere\"><bsdf type=\"diffuse\"><texture type=\"image\" name=\"albedo\">"
+      "<string name=\"filename\" value=\"no.png\"/></texture></bsdf></mesh>"
+      "<emitter type=\"envmap\"><string name=\"filename\" value=\"no.exr\"/></emitter>";
+  const Description scene = parse_in_nori(inside);
+  EXPECT_EQ(only(scene, "shape").type, "sphere");
+  EXPECT_EQ(only(only(only(scene, "shape"), "bsdf"), "texture").type, "checkerboard");
+  EXPECT_TRUE(is_missing(scene, "file 'no.obj'", "the mesh is left out"));
+  EXPECT_TRUE(is_missing(scene, "file 'no.png'", "a magenta checker stands for it"));
+  EXPECT_TRUE(is_missing(scene, "file 'no.exr'", "it gives no light"));
+  EXPECT_THROW(parse_nori_text("<scene>" + nori_camera + inside + "</scene>", "", true), Error);
+}
+
 TEST(NoriErrors, StrictReadingRefusesDeviations) {
   const std::string text = "<scene>" + nori_camera + "<emitter type=\"laser\"/></scene>";
   EXPECT_EQ(parse_nori_text(text).deviations.size(), 1u);

@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "kaustik/base/error.h"
-#include "kaustik/base/inflate.h"
+#include "kaustik/base/gzip.h"
 
 namespace kaustik {
 namespace {
@@ -280,23 +280,12 @@ InputFile::InputFile(const std::string& path)
 }
 
 InputFile::InputFile(const std::string& path, MayBePacked) : InputFile(path) {
-  // Meshes of text are packed to a tenth.
-  constexpr uint64_t usual_growth = 30, always_allowed_growth = uint64_t{64} << 20;
   uint8_t mark[2];
-  if (read(0, mark) < 2 || mark[0] != 0x1f || mark[1] != 0x8b) return;
+  if (!is_gzip({mark, read(0, mark)})) return;
   std::vector<uint8_t> packed(size_);
   packed.resize(read(0, packed));
-  const uint64_t most = always_allowed_growth + usual_growth * packed.size();
-  std::vector<uint8_t> bytes;
-  Inflater inflater(packed, Packing::gzip);
-  inflater.unpack(bytes, size_t(most) + 1);
-  if (inflater.is_damaged() || bytes.empty())
-    throw_input(fmt::format("the gzip'd file '{}' is damaged or ends too early", path),
-                "copy or pack it again");
-  if (bytes.size() > most)
-    throw_input(fmt::format("the gzip'd file '{}' grows to more than {} bytes", path, most),
-                "unpack it if that is meant");
-  unpacked_ = std::move(bytes);
+  unpacked_ =
+      kaustik::unpacked(std::move(packed), std::numeric_limits<size_t>::max() - 1, place_in(path));
   size_ = unpacked_.size();
 }
 

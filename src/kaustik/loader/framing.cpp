@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,7 +22,9 @@ namespace kaustik {
 namespace {
 
 constexpr int64_t film_side = 768;
+constexpr double usual_aspect = 4.0 / 3;
 constexpr double lens_degrees = 40;
+constexpr double margin = 1.05;  ///< around what is framed
 
 /// Of the points that are finite.
 template <typename T>
@@ -156,8 +159,8 @@ std::string text_of_point(const Vec3d& p) {
 }  // namespace
 
 std::shared_ptr<Object> film_of_aspect(double aspect, const Place& place) {
-  constexpr double usual = 4.0 / 3, least = 1.0 / 16;
-  const double ratio = aspect > 0 ? std::clamp(aspect, least, 1 / least) : usual;
+  constexpr double least = 1.0 / 16;
+  const double ratio = aspect > 0 ? std::clamp(aspect, least, 1 / least) : usual_aspect;
   const auto side = [](double share) {
     return std::max<int64_t>(1, std::llround(double(film_side) * std::min(1.0, share)));
   };
@@ -175,25 +178,56 @@ Framing::Framing(Description& description, Deviations& deviations,
   const double radius = double(bounding_radius(bounds));
   middle_ = Vec3d(center(bounds));
   // A single point shows nothing; what is out of all bounds is refused where it is built.
-  if (radius > 0 && std::isfinite(radius)) radius_ = radius;
+  if (!(radius > 0) || !std::isfinite(radius)) return;
+  radius_ = radius;
+  bounds_ = bounds;
+}
+
+/// The picture's edges along each axis are two planes that lean on the box. They cross where the
+/// camera is to stand: the farther one of both axes holds.
+Framing::View Framing::view_of_all() const {
+  const Vec3d back = turned(direction_to_camera());
+  const Vec3d right = turned({0, 1, 0}).cross(back).normalized();
+  const Vec3d axes[] = {right, back.cross(right)};
+  const double tangent = std::tan(lens_degrees / 2 * std::numbers::pi / 180) / margin;
+  const double tangents[] = {tangent * usual_aspect, tangent};
+  Vec3d aside(0, 0, 0);
+  double distance = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    double least = std::numeric_limits<double>::max(), most = -least;
+    for (const Vec3d& corner : corners()) {
+      const double along = corner.dot(axes[axis]), toward = corner.dot(back) * tangents[axis];
+      least = std::min(least, along - toward);
+      most = std::max(most, along + toward);
+    }
+    aside += axes[axis] * ((least + most) / 2);
+    distance = std::max(distance, (most - least) / (2 * tangents[axis]));
+  }
+  return {middle_ + aside + back * distance, middle_ + aside};
+}
+
+/// Of the box, from its middle; of one of radius_ where there is none.
+std::array<Vec3d, 8> Framing::corners() const {
+  const Vec3d half = bounds_.isEmpty() ? Vec3d(radius_) : Vec3d(bounds_.max) - middle_;
+  std::array<Vec3d, 8> all;
+  for (size_t i = 0; i < all.size(); ++i)
+    for (int k = 0; k < 3; ++k) all[i][k] = i >> k & 1 ? half[k] : -half[k];
+  return all;
 }
 
 void Framing::add_missing_camera() {
   Object& scene = *description_.scene;
   if (has_any(scene, "sensor")) return;
-  constexpr double margin = 1.05;
-  const double half_angle = lens_degrees / 2 * std::numbers::pi / 180;
-  const Vec3d origin =
-      middle_ + turned(direction_to_camera()) * (margin * radius_ / std::sin(half_angle));
+  const View view = view_of_all();
   auto sensor = make_object("sensor", "perspective", scene.place);
-  give(*sensor, "to_world", Transform::look_at(origin, middle_, turned({0, 1, 0})));
+  give(*sensor, "to_world", Transform::look_at(view.origin, view.target, turned({0, 1, 0})));
   give(*sensor, "fov", lens_degrees);
   give(*sensor, "fov_axis", "smaller");
   put(*sensor, "", film_of_aspect(0, scene.place));
   put(scene, "", sensor);
   deviations_.missing("camera",
                       fmt::format("the file has none: it is seen from {} toward {}",
-                                  text_of_point(origin), text_of_point(middle_)),
+                                  text_of_point(view.origin), text_of_point(view.target)),
                       scene.place);
 }
 
@@ -206,7 +240,7 @@ void Framing::add_studio_light() {
   Object& scene = *description_.scene;
   // Of the white: that of the even light, and the irradiance from the lamp over π.
   constexpr double white = studio_luminance / lumens_per_watt_white;
-  constexpr double even = 0.3, distance = 4, half_side = 1.5;
+  constexpr double even = 0.4, distance = 4, half_side = 1.5;
   const double form_factor = 4 * half_side * half_side / (distance * distance);
   const Vec3d to_camera = direction_to_camera();
   const Vec3d right = Vec3d(0, 1, 0).cross(to_camera).normalized();

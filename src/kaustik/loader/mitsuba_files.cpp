@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/mitsuba_reader.h"
 #include "kaustik/loader/mitsuba_tags.h"
 #include "kaustik/loader/xml_scan.h"

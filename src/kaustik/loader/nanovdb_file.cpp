@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "kaustik/base/error.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/base/inflate.h"
-#include "kaustik/loader/gzip.h"
 
 namespace kaustik {
 namespace {

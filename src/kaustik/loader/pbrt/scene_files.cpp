@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 
 namespace kaustik::pbrt {
 namespace {

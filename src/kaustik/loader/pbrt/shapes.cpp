@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/object_parts.h"
 
 namespace kaustik::pbrt {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/radiance/compiled_reader.h"
 #include "kaustik/loader/text_places.h"
 
