@@ -19,7 +19,8 @@ void check_tables(const OutputPlan& outputs, const Scene& scene) {
       throw Error(
           ErrorKind::input,
           fmt::format("'{}' is a table of what a meter shows, and the camera is none", file),
-          "write a picture (-o picture.exr), or choose a meter of the scene: --camera ID");
+          "write a picture (-o picture.exr), choose a meter of the scene (--camera ID), "
+          "or give points to measure at (--points FILE)");
 }
 
 void write_table(const std::vector<Measurement>& list, const std::string& unit,

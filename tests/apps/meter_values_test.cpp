@@ -108,6 +108,23 @@ TEST_F(MeterValues, OfAFileOfPointsAreATable) {
   EXPECT_FALSE(std::getline(table, line));
 }
 
+/// Whatever cameras the scene has. Who goes on from a checkpoint measures the same.
+TEST_F(MeterValues, PointsAreGivenToAnyScene) {
+  write("points.txt", "x y z nx ny nz\n0 0 1  0 0 1\n0 0 2  0 0 -1\n");
+  write_scene("<sensor type=\"perspective\">" + film + "</sensor>");
+  run_well({"render", "scene.xml", "--points", "points.txt", "--passes", "2", "--spp", "4096",
+            "--checkpoint", "a.kpt"});
+  const std::string table = contents("scene.csv");
+  expect_illuminance(number_behind(table, "\n0,0,1,"));
+  expect_illuminance(number_behind(table, "\n0,0,2,"));
+  run_well({"resume", "a.kpt", "-o", "again.csv"});
+  EXPECT_EQ(contents("again.csv"), table);
+  write("points.txt", "0 0 1\n");
+  const RunResult wrong = run({"render", "scene.xml", "--points", "points.txt", "--passes", "2"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(contains(wrong.err, "points.txt:1: there are 3 numbers")) << wrong.err;
+}
+
 TEST_F(MeterValues, TablesAreOfMetersAlone) {
   write_scene("<sensor type=\"perspective\">" + film + "</sensor>");
   const RunResult result = run({"render", "scene.xml", "--passes", "1", "-o", "lux.csv"});

@@ -25,6 +25,8 @@ struct RenderRecipe {
   std::vector<std::pair<std::string, std::string>> definitions;
   bool is_strict = false;         ///< LoadOptions; not kept: what was accepted once is so again
   std::string camera;             ///< by its id; "": the first
+  /// A file of points to measure at instead, relative to `folder` or absolute; "": none.
+  std::string points;
   std::string integrator;         ///< instead of the file's; "": that
   std::vector<Setting> settings;  ///< made after that; later ones win
   uint64_t seed = 0;
