@@ -84,7 +84,7 @@ bool unpack_draco(std::span<const std::byte> packed, DracoMesh& mesh) {
     if (!take_values(*found, attribute)) return false;
   mesh.faces.reserve(mesh.corners);
   for (draco::FaceIndex i(0); i < found->num_faces(); ++i)
-    for (const draco::PointIndex corner : found->face(i)) mesh.faces.push_back(corner.value());
+    for (const draco::PointIndex& corner : found->face(i)) mesh.faces.push_back(corner.value());
   return true;
 }
 
