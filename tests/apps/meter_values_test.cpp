@@ -99,7 +99,7 @@ TEST_F(MeterValues, OfAFileOfPointsAreATable) {
   std::string line;
   std::getline(table, line);
   EXPECT_EQ(line, "x,y,z,value,half_width,unit");
-  for (const std::string& start : {"0,0,1,", "2.5,0,1,"}) {
+  for (const std::string start : {"0,0,1,", "2.5,0,1,"}) {
     std::getline(table, line);
     ASSERT_TRUE(line.starts_with(start)) << line;
     EXPECT_TRUE(line.ends_with(",lx")) << line;

@@ -175,6 +175,7 @@ TEST(GltfExtensions, ThoseThatAreRequiredAndUnknownAreErrors) {
 TEST(GltfExtensions, MeshesWhosePackedDataAreMissingAreBoxes) {
   const Description description = parse_gltf_text(
       R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"],
+      "buffers":[{"byteLength":8,"uri":"no.bin"}],"bufferViews":[{"buffer":0,"byteLength":8}],
       "accessors":[{"componentType":5126,"count":100,"type":"VEC3","min":[0,0,0],"max":[2,4,6]},
       {"componentType":5125,"count":300,"type":"SCALAR"}],"nodes":[{"mesh":0,"translation":[1,0,0]}],
       "meshes":[{"name":"vase","primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":

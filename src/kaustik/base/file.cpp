@@ -20,6 +20,7 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/gzip.h"
+#include "kaustik/base/memory.h"
 
 namespace kaustik {
 namespace {
@@ -255,7 +256,10 @@ FilePart read_file_part(const std::string& path, uint64_t begin, size_t most) {
   const InputFile file(path);
   if (begin >= file.size()) return {{}, file.size()};
   try {
-    std::vector<uint8_t> bytes(size_t(std::min<uint64_t>(most, file.size() - begin)));
+    std::vector<uint8_t> bytes;
+    const auto count = size_t(std::min<uint64_t>(most, file.size() - begin));
+    reserve_large(bytes, count);
+    bytes.resize(count);
     bytes.resize(file.read(begin, bytes));
     return {std::move(bytes), file.size()};
   } catch (const std::bad_alloc&) {

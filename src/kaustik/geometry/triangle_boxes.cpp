@@ -7,6 +7,7 @@
 #include <numeric>
 #include <queue>
 
+#include "kaustik/base/memory.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/geometry/shape_support.h"
 
@@ -25,7 +26,9 @@ struct Piece {
 
 class Splitter {
  public:
-  explicit Splitter(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
+  explicit Splitter(const TriangleMesh& mesh) : mesh_(mesh) {
+    reserve_large(order_, mesh.triangles.size());
+    order_.resize(mesh.triangles.size());
     std::iota(order_.begin(), order_.end(), uint32_t(0));
   }
 

@@ -115,11 +115,12 @@ class StudyReader {
     std::vector<std::string> all = words(*given);
     if (all.empty()) fail(*given, "the list is empty", R"(write ["exr", "png"])");
     for (std::string& extension : all) {
+      const std::string given_text = extension;
       if (extension.starts_with('.')) extension.erase(0, 1);
       if (extension.empty() || !std::all_of(extension.begin(), extension.end(), [](char c) {
             return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
           }))
-        fail(*given, fmt::format("'{}' is no extension of a file", extension),
+        fail(*given, fmt::format("'{}' is no extension of a file", given_text),
              R"(write such as "exr", "png" or "csv")");
     }
     return all;
