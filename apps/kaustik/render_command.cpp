@@ -285,7 +285,7 @@ void add_render(CLI::App& program) {
                     "Smooth the picture's noise like kaustik denoise; the EXR's layers keep it");
   command->add_flag("--reproducible", options->outputs.reproducible,
                     "Write no times, so equal renders give equal files");
-  add_progress(*command, options->progress, "No progress");
+  add_progress(*command, options->progress, "No progress, notes and values of meters");
   add_views(*command, options->views);
   command->callback([options] { render(*options); });
 }

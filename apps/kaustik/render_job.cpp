@@ -32,6 +32,8 @@ namespace {
 Image first_look(const Job& job) {
   Image image = job.snapshot().value();
   const MetadataValue* shown = image.find_metadata(incomplete_key);
+  if (is_meter(job.scene()))
+    warn("no value was measured: the time was over before the first pass was done; give more");
   warn(fmt::format("the time was over before every pixel had a sample: the picture is {}",
                    shown ? std::get<std::string>(*shown) : "incomplete"));
   return image;
