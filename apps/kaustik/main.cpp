@@ -81,7 +81,7 @@ kaustik::Error unknown_word(const CLI::App& program) {
     return Error(ErrorKind::input,
                  fmt::format("'{}' is one word too many", words.empty() ? "" : words.front()), all);
   const std::string name = option->substr(0, option->find('='));
-  if (name == "--width" || name == "--height")
+  if ((name == "--width" || name == "--height") && command.get_option_no_throw("--set"))
     return Error(ErrorKind::input, fmt::format("there is no option {}", name),
                  fmt::format("change the film: --set film.{}=…", name.substr(2)));
   std::vector<std::string> known;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "file_names.h"
@@ -27,9 +28,11 @@ void write_table(const std::vector<Measurement>& list, const std::string& unit,
                  const std::string& file) {
   std::string text = "x,y,z,value,half_width,unit\n";
   for (const Measurement& one : list)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{:.9g},{:.4g},{}\n", one.position.x,
-                   one.position.y, one.position.z, one.value, one.half_width, unit);
-  write_file_atomically(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    fmt::format_to(std::back_inserter(text), "{},{},{},{:.9g},{},{}\n", one.position.x,
+                   one.position.y, one.position.z, one.value,
+                   std::isfinite(one.half_width) ? fmt::format("{:.4g}", one.half_width) : "",
+                   unit);
+  write_text_atomically(file, text);
 }
 
 }  // namespace kaustik::app

@@ -15,8 +15,8 @@ bool is_table(const std::string& file);
 /// Throws Error(input) if there is a table among the outputs, and the scene's camera is no meter.
 void check_tables(const OutputPlan& outputs, const Scene& scene);
 
-/// Columns: x, y, z of the meter, m; its value; half the width of the 95 % interval, "inf" where
-/// that is unknown; the unit. Throws Error.
+/// Columns: x, y, z of the meter, m; its value; half the width of the 95 % interval, empty
+/// where that is unknown; the unit. Throws Error.
 void write_table(const std::vector<Measurement>& list, const std::string& unit,
                  const std::string& file);
 

@@ -28,6 +28,14 @@ void check_outputs(const OutputPlan& outputs, FileRoles& roles) {
   make_tone_operator(outputs.tone, outputs.tone_settings);
 }
 
+void refuse_tables(const OutputPlan& outputs) {
+  for (const std::string& file : outputs.files)
+    if (is_table(file))
+      throw Error(ErrorKind::input,
+                  fmt::format("the table '{}' needs the scene, which is not read here", file),
+                  fmt::format("write a checkpoint, then: kaustik resume FILE.kpt -o {}", file));
+}
+
 bool needs_layers(const OutputPlan& outputs) {
   return outputs.denoise ||
          std::any_of(outputs.files.begin(), outputs.files.end(), picture_holds_layers);
@@ -62,16 +70,12 @@ JsonObject picture_facts(const Image& image, PictureState state) {
 }
 
 /// What the film's meter shows, as far as it is known.
-void write_measurements(const Film& film, const Scene* scene, const std::string& file) {
-  if (!scene)
-    throw Error(ErrorKind::input,
-                fmt::format("the table '{}' needs the scene, which is not read here", file),
-                fmt::format("write it with: kaustik resume FILE.kpt -o {}", file));
+void write_measurements(const Film& film, const Scene& scene, const std::string& file) {
   if (film.pass_count() == 0)
     throw Error(ErrorKind::input,
                 fmt::format("the table '{}' is not written: no pass was finished", file),
                 "render longer (--time, --passes)");
-  write_table(measurements(*scene, film), scene->camera().traits().meter_unit, file);
+  write_table(measurements(scene, film), scene.camera().traits().meter_unit, file);
 }
 
 }  // namespace
@@ -93,7 +97,7 @@ void write_pictures(const Film& film, const RenderRecord& record, const OutputOp
     if (!is_made && !is_table(file)) continue;
     failures.attempt(file, [&] {
       if (is_table(file)) {
-        write_measurements(film, options.scene, file);
+        write_measurements(film, *options.scene, file);
         events().written(file, JsonObject().add("state", state_name(state)));
       } else {
         write_picture(image, file, write);

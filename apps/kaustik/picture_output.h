@@ -11,7 +11,7 @@ namespace kaustik::app {
 struct OutputOptions {
   PictureFacts facts;
   bool quiet = false;  ///< says nothing of the files
-  /// Of the scene that a film belongs to; null: it is not known, and tables cannot be written.
+  /// That the film belongs to; needed for tables alone.
   const Scene* scene = nullptr;
 };
 
@@ -21,6 +21,9 @@ enum class PictureState { finished, ended_early, so_far };
 /// Checks, before long work, that the files can be written, each once, and the tone mapping can be
 /// made; throws Error.
 void check_outputs(const OutputPlan& outputs, FileRoles& roles);
+
+/// For commands that know no scene: throws Error(input) if there is a table of a meter among them.
+void refuse_tables(const OutputPlan& outputs);
 
 /// Whether any of the pictures shows more than the light itself: layers, or light that is smoothed
 /// by what layers know.

@@ -90,7 +90,7 @@ std::string end_reason(const SessionReport& report, const SessionSettings& sessi
 JsonObject mean_facts(const Job& job) {
   const Film& film = job.film();
   JsonObject facts;
-  if (film.pass_count() == 0) return facts;
+  if (film.pass_count() == 0 || is_meter(job.scene())) return facts;
   const ConfidenceInterval interval =
       FilmErrors(film).known(PixelRegion{0, 0, film.width(), film.height()}).interval();
   const bool is_irradiance = job.scene().quantity() == Quantity::irradiance;

@@ -125,6 +125,7 @@ void resume(const ResumeOptions& options) {
   else
     record.outputs.files = options.outputs;
   roles.reads_scene(record.recipe.scene);
+  if (!record.recipe.points.empty()) roles.reads(record.recipe.points);
   check_outputs(record.outputs, roles);
   if (options.scene.empty()) check_scene_is_there(record.recipe, options.checkpoint);
   begin_events(options.progress, roles, "resume", record.recipe.scene);

@@ -33,7 +33,7 @@ class DirectionFiles : public testing::Test {
 };
 
 TEST_F(DirectionFiles, HaveSixNumbersOnALine) {
-  const auto rows = read("# desk\n1 2 .75  0 0 1\n\n-3,4;1e1\t0,-1,0 # wall\r\n");
+  const auto rows = read("# desk\n1 2 .75  0 0 1\n\n-3,+4;1e1\t0,-1,0 # wall\r\n");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].place, Vec3d(1, 2, 0.75));
   EXPECT_EQ(rows[0].direction, Vec3d(0, 0, 1));
@@ -49,6 +49,7 @@ TEST_F(DirectionFiles, AreRefusedWithTheirLine) {
   EXPECT_EQ(failure_of("0 0 0 0 0 1\n1 2 3\n"), "2: there are 3 numbers");
   EXPECT_EQ(failure_of("0 0 0 0 0 1\n0 0 0 0 up 1\n"), "2: 'up' is not a number");
   EXPECT_EQ(failure_of("0 0 0 0 0 1\nx y z a b c\n"), "2: 'x' is not a number");
+  EXPECT_EQ(failure_of("O.5 0 0 0 0 1\n"), "1: 'O.5' is not a number");
   EXPECT_EQ(failure_of("\n0 0 0 0 0 0\n"), "2: the direction is zero");
   EXPECT_EQ(failure_of("0 0 nan 0 0 1\n"), "1: 'nan' is not a number");
   EXPECT_EQ(failure_of("# nothing\n"), "0: there is no row of numbers");

@@ -358,4 +358,8 @@ bool write_file_atomically_if(const std::string& path, std::span<const uint8_t> 
   return true;
 }
 
+void write_text_atomically(const std::string& path, std::string_view text) {
+  write_file_atomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
 }  // namespace kaustik

@@ -26,10 +26,11 @@ std::vector<DirectedPlace> read_direction_file(const std::string& path, size_t m
     const std::string_view text = trimmed(line.substr(0, line.find('#')));
     if (text.empty()) continue;
     const Place place = place_in(path, lines.number());
-    const NumberList list = parse_number_list(text);
-    const bool is_title = may_be_title && list.numbers.empty();
+    const bool is_title =
+        may_be_title && text.find_first_of("0123456789") == std::string_view::npos;
     may_be_title = false;
     if (is_title) continue;
+    const NumberList list = parse_number_list(text);
     if (!list.wrong_word.empty()) fail(fmt::format("'{}' is not a number", list.wrong_word), place);
     if (list.numbers.size() != 6)
       fail(fmt::format("there are {} numbers", list.numbers.size()), place);

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <memory>
+#include <new>
 
 namespace kaustik::gltf {
 namespace {
@@ -70,7 +71,7 @@ bool take_values(const draco::Mesh& from, DracoMesh::Attribute& attribute) {
 
 }  // namespace
 
-bool unpack_draco(std::span<const std::byte> packed, DracoMesh& mesh) {
+bool unpack_draco(std::span<const std::byte> packed, DracoMesh& mesh) try {
   if (!DracoHead(packed).fits(mesh)) return false;
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(packed.data()), packed.size());
@@ -86,6 +87,8 @@ bool unpack_draco(std::span<const std::byte> packed, DracoMesh& mesh) {
   for (draco::FaceIndex i(0); i < found->num_faces(); ++i)
     for (const draco::PointIndex& corner : found->face(i)) mesh.faces.push_back(corner.value());
   return true;
+} catch (const std::bad_alloc&) {
+  return false;
 }
 
 }  // namespace kaustik::gltf

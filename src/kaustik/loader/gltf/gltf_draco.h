@@ -22,8 +22,8 @@ struct DracoMesh {
 };
 
 /// Fills the values of the attributes, and the faces, of a mesh whose counts and ids are set.
-/// False: the data are damaged, have other counts, or lack an attribute. Takes memory in proportion
-/// to the counts.
+/// False: the data are damaged, have other counts, lack an attribute, or ask for more memory than
+/// there is. Faces and vertices take memory in proportion to the counts.
 bool unpack_draco(std::span<const std::byte> packed, DracoMesh& mesh);
 
 }  // namespace kaustik::gltf

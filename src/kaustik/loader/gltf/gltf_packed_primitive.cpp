@@ -28,6 +28,12 @@ std::vector<Target> targets_of(const File& file, const Accessors& accessors,
   const JsonValue* attributes = primitive.find("attributes");
   const JsonValue* ids = packed.find("attributes");
   std::vector<Target> targets;
+  for (const auto& [name, value] : attributes->members()) {
+    const auto accessor = file.count(*attributes, name);
+    const bool has_numbers =
+        !accessor || file.item("accessors", *accessor, *attributes).find("bufferView");
+    if (!has_numbers && !(ids && ids->find(name))) give_up("lack " + name);
+  }
   if (!ids) return targets;
   for (const auto& [name, value] : ids->members()) {
     const auto id = file.count(*ids, name);
