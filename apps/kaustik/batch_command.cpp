@@ -11,6 +11,7 @@
 #include "option_values.h"
 #include "part_option.h"
 #include "screen.h"
+#include "signals.h"
 #include "standard_streams.h"
 #include "study_parts.h"
 #include "study_table.h"
@@ -23,10 +24,6 @@ struct BatchOptions {
   std::optional<std::string> part;
   bool list = false, table = false, force = false;
 };
-
-void write_text(const std::string& file, const std::string& text) {
-  write_file_atomically(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-}
 
 /// Of one part alone, with the events that it tells. Throws what `kaustik render` ends with.
 void render(const StudyPart& part) {
@@ -47,16 +44,18 @@ class Batch {
       : file_(file), study_(read_study(file)), parts_(parts_of(study_)) {}
 
   void list() const {
-    for (const StudyPart& part : parts_) fmt::print("{}\n", command_line(part));
+    for (const StudyPart& part : parts_) fmt::print("{}\n", command_line(part.arguments));
   }
 
   /// Those with these numbers, one after the other; one that fails does not cost the others.
   void run(const PartNumber& share, bool is_forced) {
-    std::filesystem::create_directories(study_.folder);
+    make_folder();
     std::vector<std::string> failed;
+    size_t count = 0;
     for (size_t i = share.index; i < parts_.size(); i += share.count) {
       const StudyPart& part = parts_[i];
-      if (!is_forced && is_done(study_, part)) {
+      ++count;
+      if (!is_forced && result_of(study_, part)) {
         say("{} of {}: {} is there", i + 1, parts_.size(), part.name);
         continue;
       }
@@ -64,8 +63,8 @@ class Batch {
       if (!is_rendered(part)) failed.push_back(part.name);
     }
     if (!failed.empty())
-      throw Error(ErrorKind::input,
-                  fmt::format("{} of {} variants failed: {}", failed.size(), parts_.size(),
+      throw Error(failure_,
+                  fmt::format("{} of {} variants failed: {}", failed.size(), count,
                               fmt::join(failed, ", ")),
                   "mend what is said above, and give the same command again: what is done stays");
   }
@@ -79,29 +78,52 @@ class Batch {
       throw Error(ErrorKind::input, "no variant is done yet",
                   fmt::format("render them: kaustik batch {}", file_));
     for (const std::string& name : table.missing) warn(fmt::format("{} is not done", name));
-    write_text(file, table.text);
+    write_text_atomically(file, table.text);
     say("wrote {}", file);
   }
 
  private:
+  void make_folder() const {
+    std::error_code failed;
+    std::filesystem::create_directories(study_.folder, failed);
+    if (failed)
+      throw Error(ErrorKind::input,
+                  fmt::format("cannot make the folder '{}': {}", study_.folder, failed.message()),
+                  "give the study another \"folder\"", place_in(file_));
+  }
+
+  /// What goes wrong is told, and kept in failure_. Throws EndedEarly after a signal.
   bool is_rendered(const StudyPart& part) {
     const std::string command = command_file(study_, part);
-    std::filesystem::remove(command);
+    std::error_code ignored;
+    std::filesystem::remove(command, ignored);
     try {
       render(part);
+      // It may have come when the last pass was done.
+      if (!first_signal_name().empty()) throw EndedEarly{};
       events().end(0, "");
-      write_text(command, command_line(part) + "\n");
+      write_text_atomically(command, part.command + "\n");
+      if (!result_of(study_, part))
+        throw Error(ErrorKind::input, "no pass was done, so that there is no value",
+                    "give the renders more time");
       return true;
     } catch (const Error& error) {
-      screen().tell(Level::error, error.what());
-      events().end(error.kind() == ErrorKind::input ? exit_input : exit_system, error.what());
-      return false;
+      fail(error.kind(), error.what());
+    } catch (const std::exception& error) {
+      fail(ErrorKind::system, error.what());
     }
+    return false;
+  }
+  void fail(ErrorKind kind, const std::string& message) {
+    if (kind == ErrorKind::system) failure_ = kind;
+    screen().tell(Level::error, message);
+    events().end(kind == ErrorKind::input ? exit_input : exit_system, message);
   }
 
   std::string file_;
   Study study_;
   std::vector<StudyPart> parts_;
+  ErrorKind failure_ = ErrorKind::input;  ///< system if one of those that failed is
 };
 
 void batch(const BatchOptions& options) {

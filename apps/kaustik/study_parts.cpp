@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "kaustik/base/error.h"
+#include "shell_words.h"
 
 namespace kaustik::app {
 namespace {
@@ -28,7 +29,7 @@ std::vector<std::string> render_options() {
 
 class OptionCheck {
  public:
-  void operator()(const StudySetting& setting) const {
+  void operator()(const StudySetting& setting) {
     if (setting.target != StudyTarget::option) return;
     if (std::find(std::begin(own_options), std::end(own_options), setting.name) !=
         std::end(own_options))
@@ -39,10 +40,17 @@ class OptionCheck {
       throw Error(ErrorKind::input, fmt::format("render has no option --{}", setting.name),
                   suggest(setting.name, known_) + "; all of them: kaustik render --help",
                   setting.place);
+    constexpr const char* repeatable = "set";
+    if (setting.name != repeatable && !given_.insert(setting.name).second)
+      throw Error(ErrorKind::input, fmt::format("--{} is given twice", setting.name),
+                  "keep it among 'options', or as a factor; \"seed\": \"each\" gives --seed",
+                  setting.place);
   }
+  void take_seed() { given_.insert("seed"); }
 
  private:
   std::vector<std::string> known_ = render_options();
+  std::set<std::string> given_;
 };
 
 /// What any system takes in a file's name, and no shell has a meaning for.
@@ -68,48 +76,48 @@ void add_setting(const StudySetting& setting, const std::string& value,
   }
 }
 
-StudyPart part_of(const Study& study, size_t number) {
-  StudyPart part;
-  part.arguments = {"render", study.scene};
+/// The options of all parts, and those of the factors' values, which give the part its name.
+std::vector<std::string> settings_of(const Study& study, size_t number, StudyPart& part) {
+  std::vector<std::string> arguments;
   for (const StudyOption& option : study.options) {
-    if (option.values.empty()) part.arguments.push_back("--" + option.setting.name);
-    for (const std::string& value : option.values)
-      add_setting(option.setting, value, part.arguments);
+    if (option.values.empty()) arguments.push_back("--" + option.setting.name);
+    for (const std::string& value : option.values) add_setting(option.setting, value, arguments);
   }
   size_t rest = number;
   for (auto factor = study.factors.rbegin(); factor != study.factors.rend(); ++factor) {
     const StudyValue& value = factor->values[rest % factor->values.size()];
     rest /= factor->values.size();
     part.labels.insert(part.labels.begin(), value.label);
-    add_setting(factor->setting, value.text, part.arguments);
+    add_setting(factor->setting, value.text, arguments);
     const std::string word = file_name_of(factor->label) + "-" + file_name_of(value.label);
     part.name = part.name.empty() ? word : word + "_" + part.name;
   }
   if (part.name.empty()) part.name = "picture";
-  if (study.has_seed_for_each) part.arguments.push_back(fmt::format("--seed={}", number));
-  for (const std::string& extension : study.outputs)
-    part.arguments.insert(part.arguments.end(),
-                          {"-o", study.folder + "/" + part.name + "." + extension});
-  part.arguments.insert(part.arguments.end(), {"--progress-file", events_file(study, part)});
-  return part;
+  if (study.has_seed_for_each) arguments.push_back(fmt::format("--seed={}", number));
+  return arguments;
 }
 
-/// In single quotes, unless it means itself.
-std::string quoted(const std::string& word) {
-  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) ||
-           std::string_view("-_./=:+,%").find(c) != std::string_view::npos;
-  });
-  if (is_plain) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
+StudyPart part_of(const Study& study, size_t number) {
+  StudyPart part;
+  const std::vector<std::string> settings = settings_of(study, number, part);
+  const auto arguments = [&](const std::string& scene, const std::string& folder) {
+    std::vector<std::string> all{"render", scene};
+    all.insert(all.end(), settings.begin(), settings.end());
+    for (const std::string& extension : study.outputs)
+      all.insert(all.end(), {"-o", folder + part.name + "." + extension});
+    all.insert(all.end(), {"--progress-file", folder + part.name + ".jsonl"});
+    return all;
+  };
+  part.arguments = arguments(study.scene, study.folder + "/");
+  part.command = command_line(arguments(study.scene_as_written, ""));
+  return part;
 }
 
 }  // namespace
 
 std::vector<StudyPart> parts_of(const Study& study) {
-  const OptionCheck check;
+  OptionCheck check;
+  if (study.has_seed_for_each) check.take_seed();
   for (const StudyOption& option : study.options) check(option.setting);
   for (const StudyFactor& factor : study.factors) check(factor.setting);
   std::vector<StudyPart> parts;
@@ -131,9 +139,9 @@ std::string command_file(const Study& study, const StudyPart& part) {
   return study.folder + "/" + part.name + ".command";
 }
 
-std::string command_line(const StudyPart& part) {
+std::string command_line(const std::vector<std::string>& arguments) {
   std::string line = "kaustik";
-  for (const std::string& argument : part.arguments) line += " " + quoted(argument);
+  for (const std::string& argument : arguments) line += " " + quoted_for_shell(argument);
   return line;
 }
 

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/render_events.h"
 
 namespace kaustik::app {
 namespace {
@@ -38,12 +37,24 @@ void add_rows(const StudyPart& part, const RenderEvents& events, std::string& te
 
 }  // namespace
 
-bool is_done(const Study& study, const StudyPart& part) {
-  const std::string file = command_file(study, part), command = command_line(part) + "\n";
+namespace {
+
+/// Whether it was rendered by this very command.
+bool has_its_command(const Study& study, const StudyPart& part) {
+  const std::string file = command_file(study, part), command = part.command + "\n";
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(file, unknown)) return false;
   const std::vector<uint8_t> bytes = read_file_start(file, command.size() + 1);
   return std::equal(bytes.begin(), bytes.end(), command.begin(), command.end());
+}
+
+}  // namespace
+
+std::optional<RenderEvents> result_of(const Study& study, const StudyPart& part) {
+  if (!has_its_command(study, part)) return {};
+  std::optional<RenderEvents> events = read_render_events(events_file(study, part));
+  if (!events || events->exit_code != 0 || events->values.empty()) return {};
+  return events;
 }
 
 StudyTable table_of(const Study& study, const std::vector<StudyPart>& parts) {
@@ -52,9 +63,7 @@ StudyTable table_of(const Study& study, const std::vector<StudyPart>& parts) {
   for (const StudyFactor& factor : study.factors) table.text += cell(factor.label) + ",";
   table.text += "x,y,z,value,half_width,unit,passes,samples_per_pixel,seconds\n";
   for (const StudyPart& part : parts) {
-    const std::optional<RenderEvents> events =
-        is_done(study, part) ? read_render_events(events_file(study, part)) : std::nullopt;
-    if (events)
+    if (const auto events = result_of(study, part))
       add_rows(part, *events, table.text);
     else
       table.missing.push_back(part.name);

@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "kaustik/loader/render_events.h"
 #include "study_parts.h"
 
 namespace kaustik::app {
@@ -15,7 +17,8 @@ struct StudyTable {
 };
 StudyTable table_of(const Study& study, const std::vector<StudyPart>& parts);
 
-/// Whether the part was rendered by this very command.
-bool is_done(const Study& study, const StudyPart& part);
+/// What the part has told, if it is done: rendered to its end by this very command, with a value at
+/// least.
+std::optional<RenderEvents> result_of(const Study& study, const StudyPart& part);
 
 }  // namespace kaustik::app

@@ -107,6 +107,41 @@ TEST_F(Batches, GoOnBeyondFailures) {
   EXPECT_FALSE(exists("study/table.csv"));
 }
 
+/// What one variant has told is not told of the next.
+TEST_F(Batches, FailuresTellNothingOfOthers) {
+  write_study(R"({"option": "camera", "values": ["view", "nobody"]})");
+  run({"batch", "study.json"});
+  EXPECT_TRUE(contains(contents("study/camera-view.jsonl"), "\"mean\":"));
+  EXPECT_FALSE(contains(contents("study/camera-nobody.jsonl"), "\"mean\":"));
+}
+
+/// Ctrl-C ends the study, not the variant alone.
+TEST_F(Batches, EndEarly) {
+  write_study(R"({"option": "passes", "values": [100000, 2]})");
+  std::string text = contents("study.json");
+  text.replace(text.find("\"passes\": 16, \"spp\": 256"), 26, "\"denoise\": true");
+  write("study.json", text);
+  RunOptions options;
+  options.interrupt_at = "1 of 2: passes-100000";
+  options.interrupt_delay_s = 1;
+  const RunResult result = run({"batch", "study.json"}, options);
+  EXPECT_EQ(result.exit_code, 75) << result.err;
+  EXPECT_FALSE(contains(result.err, "2 of 2")) << result.err;
+  EXPECT_FALSE(exists("study/table.csv"));
+  EXPECT_FALSE(exists("study/passes-100000.command"));
+}
+
+/// From wherever it is called, and under whatever name.
+TEST_F(Batches, AreDoneWhereverTheyAreCalledFrom) {
+  write_study(skies);
+  run_well({"batch", "study.json"});
+  EXPECT_TRUE(contains(run_well({"batch", "./study.json"}).err, "2 of 2: sky-bright is there"));
+  EXPECT_TRUE(contains(run_well({"batch", path("study.json")}).err, "sky-bright is there"));
+  // What it told is part of it.
+  std::filesystem::remove(path("study/sky-dim.jsonl"));
+  EXPECT_TRUE(contains(run_well({"batch", "study.json"}).err, "wrote study/sky-dim.exr"));
+}
+
 TEST_F(Batches, MistakesAreToldBeforeAnythingIsRendered) {
   const auto failure_of = [&](const std::string& factors) {
     write_study(factors);
@@ -121,6 +156,8 @@ TEST_F(Batches, MistakesAreToldBeforeAnythingIsRendered) {
   EXPECT_TRUE(contains(unknown, "integrator")) << unknown;
   EXPECT_TRUE(contains(failure_of(R"({"option": "output", "values": ["a.exr"]})"),
                        "the study itself chooses --output"));
+  EXPECT_TRUE(
+      contains(failure_of(R"({"option": "spp", "values": [1, 2]})"), "--spp is given twice"));
   EXPECT_TRUE(contains(failure_of(R"({"define": "sky", "values": ["1,2", "1;2"]})"),
                        "two variants would be called 'sky-1-2'"));
   EXPECT_TRUE(contains(run({"batch", "study.json", "--table"}).err, "two variants"));

@@ -83,6 +83,9 @@ TEST_F(StudyFiles, MistakesAreToldWithTheirLine) {
   EXPECT_EQ(of_factor(R"({"define": "a", "values": [[1]]})"), "1: this is no single value");
   EXPECT_EQ(of_factor(R"({"define": "a", "first": 3, "last": 1})"),
             "1: there are no frames from 3 to 1");
+  EXPECT_EQ(of_factor(R"({"define": "a", "first": 1, "last": 2, "names": ["x", "y"]})"),
+            "1: numbers that are counted have no names");
+  EXPECT_EQ(failure_of(R"({"scene": "a.xml", "options": {"spp": []}})"), "1: 'spp' has no value");
   EXPECT_EQ(of_factor(R"({"define": "a", "values": [1]}, {"set": "b.a", "values": [1]})"),
             "1: two factors are called 'a'");
   const std::string thousand = R"({"define": "a", "first": 1, "last": 1001})";

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_bytes = size_t{64} << 20;
+constexpr size_t most_bytes = size_t{64} << 20, most_factors = 100;
 
 /// A number as a command line has it, without needless digits.
 std::string text_of(double number) { return fmt::format("{}", number); }
@@ -51,14 +52,14 @@ class StudyReader {
     if (!scene) fail(root_, "the study names no scene", R"(write "scene": "room.xml")");
     const fs::path path = path_;
     Study study;
-    study.scene = near(text(*scene, "scene"));
+    study.scene_as_written = text(*scene, "scene");
+    study.scene = near(study.scene_as_written);
     const JsonValue* folder = root_.find("folder");
     study.folder = near(folder ? text(*folder, "folder") : path.stem().string());
     study.outputs = outputs();
     study.options = options();
     study.factors = factors();
     study.has_seed_for_each = has_seed_for_each();
-    check_count(study);
     return study;
   }
 
@@ -137,6 +138,8 @@ class StudyReader {
       const auto flag = value.boolean();
       if (flag && !*flag) continue;
       if (!flag) option.values = words(value);
+      if (!flag && option.values.empty())
+        fail(value, fmt::format("'{}' has no value", name), "write one, or true for a switch");
       all.push_back(std::move(option));
     }
     return all;
@@ -148,12 +151,20 @@ class StudyReader {
     if (!given->is_list())
       fail(*given, "'factors' is no list", R"(write [{"define": "hour", "values": [9, 12]}])");
     std::vector<StudyFactor> all;
-    for (const JsonValue& item : given->items()) all.push_back(factor(item));
-    for (size_t i = 0; i < all.size(); ++i)
-      for (size_t k = 0; k < i; ++k)
-        if (all[i].label == all[k].label)
-          fail(given->items()[i], fmt::format("two factors are called '{}'", all[i].label),
-               R"(give one another "name")");
+    std::set<std::string> labels;
+    size_t count = 1;
+    for (const JsonValue& item : given->items()) {
+      all.push_back(factor(item));
+      if (!labels.insert(all.back().label).second)
+        fail(item, fmt::format("two factors are called '{}'", all.back().label),
+             R"(give one another "name")");
+      if ((count *= all.back().values.size()) > most_variants)
+        fail(item, fmt::format("the study has more than {} variants", most_variants),
+             "divide it into several studies");
+      if (all.size() > most_factors)
+        fail(item, fmt::format("the study has more than {} factors", most_factors),
+             "divide it into several studies");
+    }
     return all;
   }
 
@@ -205,6 +216,8 @@ class StudyReader {
 
   /// Whole numbers, such as those of frames. In file names they have equally many digits.
   std::vector<StudyValue> counted_values(const JsonValue& item) const {
+    if (const JsonValue* names = item.find("names"))
+      fail(*names, "numbers that are counted have no names", R"(list "values" and their names)");
     const auto first = whole(item, "first"), last = whole(item, "last");
     if (!first || !last)
       fail(item, "the factor has no values",
@@ -235,15 +248,6 @@ class StudyReader {
       fail(*given, fmt::format("there is no seed '{}'", choice),
            R"(write "fixed" for the same noise in all variants, "each" for noise of their own)");
     return choice == "each";
-  }
-
-  void check_count(const Study& study) const {
-    size_t count = 1;
-    for (const StudyFactor& factor : study.factors)
-      if ((count *= factor.values.size()) > most_variants)
-        fail(*root_.find("factors"),
-             fmt::format("the study has more than {} variants", most_variants),
-             "divide it into several studies");
   }
 
   std::string path_, text_;

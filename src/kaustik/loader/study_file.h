@@ -43,6 +43,7 @@ struct StudyOption {
 struct Study {
   std::string scene;                 ///< the file, relative to the working folder or absolute
   std::string folder;                ///< for all that is written; likewise
+  std::string scene_as_written;      ///< relative to the study\'s own folder, or absolute
   std::vector<std::string> outputs;  ///< extensions of the files that each variant writes
   std::vector<StudyOption> options;
   std::vector<StudyFactor> factors;
@@ -56,7 +57,7 @@ struct Study {
 inline constexpr size_t most_variants = 1'000'000;
 
 /// Reads "scene", "folder" [the file's name without its extension], "outputs" ["exr"], "options",
-/// "factors", and "seed", "fixed" [the default] or "each". Names of files are relative to the
+/// "factors", and "seed", "fixed" [the default] or "each". Scene and folder are relative to the
 /// study's own folder. Throws Error(input) with line and column.
 Study read_study(const std::string& path);
 
