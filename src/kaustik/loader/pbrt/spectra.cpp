@@ -203,6 +203,7 @@ const Spectra::FileCurve& Spectra::curve_in(const std::string& path) {
 Value Spectra::of_curve(SpectralCurve curve, SpectrumUse use, const Parameter& parameter,
                         const Owner& owner) {
   if (use == SpectrumUse::light) {
+    if (keeps_brightness_ && parameter.type == "spectrum") return curve;
     const double brightness = luminance(curve);
     Value value = std::move(curve);
     multiply_value(value, brightness > 0 ? 1 / brightness : 0);
