@@ -448,9 +448,16 @@ TEST(BuildScene, LampsWithoutABsdfAreBlack) {
     return scene.surface(0).bsdf->albedo({}, {0, 0, 1}, Lobes::all)[0];
   };
   EXPECT_EQ(albedo(*scene_of(camera + "<shape type=\"sphere\">" + lamp)), 0);
-  const std::string nothing = camera + "<shape type=\"sphere\"><bsdf type=\"null\"/>" + lamp;
-  expect_one(lenient_warnings(nothing), "is not there, so it cannot be a light");
-  EXPECT_EQ(albedo(*scene_of(nothing)), 0);
+}
+
+TEST(BuildScene, LampsOfNullLetLightPass) {
+  const std::string text = camera +
+                           "<shape type=\"sphere\"><bsdf type=\"null\"/>"
+                           "<emitter type=\"area\"/></shape>";
+  EXPECT_TRUE(lenient_warnings(text).empty());
+  const auto scene = scene_of(text);
+  EXPECT_FALSE(scene->surface(0).traits.is_null);  // paths look at it
+  EXPECT_EQ(scene->surface(0).bsdf->straight({}, {0, 0, 1})[0], 1);
 }
 
 // Mitsuba's: before the scene, so far away that its larger side fills 45 degrees.

@@ -8,6 +8,7 @@
 
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
+#include "kaustik/material/mask.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/named_in.h"
 #include "kaustik/scene/spectrum_types.h"
@@ -312,12 +313,8 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
                                   [](const Child& c) { return c.object->family == "emitter"; });
   // As in Mitsuba a lamp without a bsdf reflects nothing, and other shapes half of the light.
   if (!built.surface.bsdf) built.surface.bsdf = shines ? black_bsdf() : usual_bsdf();
-  if (shines && built.surface.bsdf->traits().is_null) {
-    told_unless_strict("a shape with bsdf 'null' is not there, so it cannot be a light",
-                       "give it another bsdf, such as diffuse; it is taken to be black",
-                       object.place);
-    built.surface.bsdf = black_bsdf();
-  }
+  // Paths look at a lamp that they pass.
+  if (shines && built.surface.bsdf) built.surface.bsdf = with_lobe(built.surface.bsdf);
   if (built.surface.bsdf) built.surface.traits = built.surface.bsdf->traits();
   read_media(object, built.surface);
   if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))
