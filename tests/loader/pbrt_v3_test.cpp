@@ -97,6 +97,14 @@ TEST(PbrtV3, RoughnessIsTurnedIntoSlopes) {
   EXPECT_NEAR(slope("Material \"conductor\" \"float roughness\" .25"), .5, 1e-12);
 }
 
+TEST(PbrtV3, MetalsOfFilesThatAreNotThereAreThoseMetals) {
+  const Description scene = parse_scene_of_pbrt(
+      "WorldBegin Material \"metal\" \"spectrum eta\" \"spds/metals/Au.eta.spd\" \"spectrum k\" "
+      "\"spds/metals/Au.k.spd\" Shape \"sphere\"");
+  EXPECT_EQ(value<std::string>(one_sided(*bsdf_of(scene)), "material"), "au");
+  EXPECT_TRUE(is_missing(scene, "material 'metal'", "Au.k.spd': the metal 'au' stands for it"));
+}
+
 TEST(PbrtV3, SpotsFallOffByAPowerOfTheCosine) {
   const Description scene = parse_scene_of_pbrt("Film \"image\" WorldBegin LightSource \"spot\"");
   EXPECT_EQ(value<std::string>(only(scene, "emitter"), "falloff"), "square");

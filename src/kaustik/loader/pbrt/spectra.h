@@ -38,6 +38,8 @@ class Spectra {
   void keep_brightness_of_light() { keeps_brightness_ = true; }
   /// The name that a spectrum has instead of values, such as "metal-Cu-eta"; "" if it has none.
   static std::string name_of(const ParameterList& list, std::string_view name);
+  /// metal_of() that name; also of a file that is not there ("metals/Au.eta.spd"), which is told.
+  std::string metal_in(const ParameterList& list, std::string_view name, const Owner& owner);
 
  private:
   Value of_parameter(const Parameter& parameter, SpectrumUse use, const Owner& owner);
