@@ -95,7 +95,7 @@ void SceneBuilder::not_here_yet(const Object& object) {
 }
 
 bool SceneBuilder::is_foreign(const Object& object, const std::vector<std::string>& valid) const {
-  return !is_strict_ && nearest_name(object.type, valid).empty();
+  return !is_strict_ && !is_slip_of_pen(object.type, valid);
 }
 
 void SceneBuilder::leave_out(const Object& object, const std::string& consequence) {
@@ -274,6 +274,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       unknown_type(object, valid);
     return std::nullopt;
   }
+  if (lacks_file(object, type->info, "the shape is left out")) return std::nullopt;
   refuse_children(object, {"bsdf", "emitter", "integrator", "medium", "sensor", "texture"});
   const Parameter* placing = type->info.find("to_world");
   const int dimensions = dimensions_left(object);
