@@ -58,5 +58,24 @@ TEST(Framing, FillsThePictureWithBoxesOfAnyForm) {
   }
 }
 
+/// How far from the origin the camera stands that sees these spheres, each a radius.
+double distance_of_camera(std::initializer_list<double> radii) {
+  std::string text = "void plastic p 0 0 5 .5 .5 .5 0 0\n";
+  for (const double radius : radii) text += fmt::format("p sphere s 0 0 4 0 0 0 {}\n", radius);
+  kaustik::TemporaryFolder folder;
+  const Description description = load_scene(folder.write("spheres.rad", text));
+  const Object& sensor = only_in(*description.scene, "sensor");
+  return Vec3d(value<Transform>(sensor, "to_world").point({0, 0, 0})).length();
+}
+
+TEST(Framing, SkiesAroundAllElseDoNotCount) {
+  const double alone = distance_of_camera({1});
+  EXPECT_NEAR(distance_of_camera({1, 500}), alone, 1e-3);
+  EXPECT_NEAR(distance_of_camera({500, 1}), alone, 1e-3);
+  EXPECT_NEAR(distance_of_camera({500, 1, 40}), alone, 1e-3);  // one in the other
+  // No room for a camera between the two.
+  EXPECT_NEAR(distance_of_camera({1, 3}), 3 * alone, 1e-3);
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "kaustik/loader/deviations.h"
 #include "kaustik/scene/description.h"
@@ -26,7 +27,8 @@ enum class UpAxis { y, z };
 
 /// Puts a camera and light into a scene, by the box around its shapes: meshes of buffers, spheres,
 /// cylinders, cubes, rectangles and disks, through instances, and OBJ files, whose vertices are
-/// read. What it adds is told as a deviation.
+/// read. Skies, which are shapes around all others, and far away, do not count. What it adds is
+/// told as a deviation.
 class Framing {
  public:
   /// `obj_bounds`: of files that have been read, by path.
@@ -50,6 +52,12 @@ class Framing {
     Vec3d origin, target;
   };
   View view_of_all() const;
+  Vec3d lamp_place() const;
+  /// From now on the box is what is shown.
+  void show(const Bounds3f& bounds);
+  /// Shows what one of the boxes surrounds, and takes that one away. False: none is so large.
+  bool leave_out_shell(std::vector<Bounds3f>& boxes);
+  bool stands_in(const Bounds3f& box, const Vec3d& point) const;
   std::array<Vec3d, 8> corners() const;
 
   Description& description_;

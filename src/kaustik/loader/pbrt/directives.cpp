@@ -203,6 +203,7 @@ void Directives::camera(const Call& call) {
 
 void Directives::film(const Call& call) {
   view_.film = setting(call);
+  if (is_old_film(view_.film->type)) world_.become_old();
   if (state_.colour_space != ColourSpace::srgb)
     deviations_.approximated("film", "the picture has the primaries of Rec. 709", call.place());
 }
@@ -231,7 +232,8 @@ void Directives::world_begin(const Call&) {
   coordinate_systems_["world"] = {};
 }
 
-void Directives::world_end(const Call&) {}
+// pbrt-v3, which alone has WorldEnd, makes its camera here.
+void Directives::world_end(const Call&) { camera_medium_ = state_.media.outside; }
 
 void Directives::shape(const Call& call) {
   Setting given = setting(call);

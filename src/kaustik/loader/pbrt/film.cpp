@@ -88,8 +88,7 @@ void set_crop(Object& film, const ParameterList& list, const PictureSize& size) 
 
 /// Seconds that the shutter is open; of pbrt-v3, whose film is an image, they change no brightness.
 double exposure_seconds(const ViewTools& tools, const ViewSettings& settings) {
-  const bool is_old = settings.film && settings.film->type == "image";
-  if (!settings.camera || is_old) return 1;
+  if (!settings.camera || (settings.film && is_old_film(settings.film->type))) return 1;
   const ParameterList& camera = settings.camera->parameters;
   const double seconds = camera.number("shutterclose", 1) - camera.number("shutteropen", 0);
   if (seconds > 0) return seconds;

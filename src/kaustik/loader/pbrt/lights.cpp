@@ -40,6 +40,23 @@ struct Lamp {
   void approximated(const std::string& what) const {
     tools.deviations.approximated(owner.object, what, place());
   }
+  /// By which pbrt-v3 multiplies a picture: the luminance of that light.
+  double factor_of_picture(const char* name) const {
+    const auto tint = tools.spectra.read(list, name, SpectrumUse::light, owner);
+    if (!tint) return 1;
+    if (const auto number = as_number(*tint)) return *number;
+    if (const auto* curve = std::get_if<SpectralCurve>(&*tint)) {
+      coloured(name);
+      return luminance(*curve);
+    }
+    const auto colour = as_colour(*tint);
+    if (!colour) return 1;
+    if (colour->r != colour->g || colour->r != colour->b) coloured(name);
+    return luminance(*colour);
+  }
+  void coloured(const char* name) const {
+    approximated(fmt::format("{} makes its picture brighter, but does not colour it", shown(name)));
+  }
 };
 
 /// From the lamp's space, where it looks along +z, to that of the file. Throws Error(input).
@@ -70,7 +87,10 @@ std::shared_ptr<Object> make_spot(const Lamp& lamp) {
   set(*light, "intensity", lamp.light("I", lamp.factor_for("power", solid_angle)));
   set(*light, "cutoff_angle", cone);
   set(*light, "beam_width", cone - delta);
-  set(*light, "falloff", std::string("smooth"));
+  // pbrt-v3 falls by the fourth power of the step that is squared here.
+  const bool is_old = lamp.tools.is_old;
+  if (is_old && delta > 0) lamp.approximated("toward its edge it falls off less steeply");
+  set(*light, "falloff", std::string(is_old ? "square" : "smooth"));
   const Vec3d from = lamp.list.point("from").value_or(Vec3d(0, 0, 0));
   const Vec3d to = lamp.list.point("to").value_or(Vec3d(0, 0, 1));
   set(*light, "to_world", lamp.to_world * aimed(from, to, lamp.place()));
@@ -123,15 +143,10 @@ std::shared_ptr<Object> make_infinite(const Lamp& lamp) {
   double scale = lamp.list.number("scale", 1);
   if (lamp.list.number("illuminance", -1) > 0)
     lamp.approximated("'illuminance' has no effect: the picture shines with its own light");
-  if (is_old) {
-    const auto tint = lamp.tools.spectra.read(lamp.list, "L", SpectrumUse::light, lamp.owner);
-    const auto colour = tint ? as_colour(*tint) : std::nullopt;
-    if (colour) scale *= luminance(*colour);
-    if (colour && (colour->r != colour->g || colour->r != colour->b))
-      lamp.approximated("'L' makes its picture brighter, but does not colour it");
-  } else {
+  if (is_old)
+    scale *= lamp.factor_of_picture("L");
+  else
     set(*light, "projection", std::string("equalarea"));
-  }
   set(*light, "scale", std::max(scale, 0.0));
   set(*light, "to_world", lamp.to_world * (is_old ? old_from_y_up() : z_up_from_y_up()));
   return light;
@@ -140,7 +155,7 @@ std::shared_ptr<Object> make_infinite(const Lamp& lamp) {
 /// A picture thrown through a pinhole: a spot whose cone just holds it, dark beside it.
 std::shared_ptr<Object> make_projection(const Lamp& lamp) {
   const std::string file = lamp.list.text("filename", lamp.list.text("mapname"));
-  const double fov = std::clamp(lamp.list.number("fov", 90), 1.0, 170.0);
+  const double fov = std::clamp(lamp.list.number("fov", lamp.tools.is_old ? 45 : 90), 1.0, 170.0);
   auto light = described("emitter", "projector", lamp.place());
   auto picture = lamp.tools.textures.picture(file, false, lamp.owner, lamp.place());
   // Its upper edge is at +y of the lamp and its right edge at +x, which is the left of Kaustik's.
@@ -149,7 +164,7 @@ std::shared_ptr<Object> make_projection(const Lamp& lamp) {
   hold(*light, "irradiance", picture);
   set(*light, "fov", fov);
   set(*light, "fov_axis", std::string("smaller"));
-  set(*light, "scale", lamp.list.number("scale", 1) / pi);
+  set(*light, "scale", lamp.factor_of_picture("I") * lamp.list.number("scale", 1) / pi);
   set(*light, "to_world", lamp.to_world);
   if (lamp.list.number("power", -1) > 0)
     lamp.approximated("'power' has no effect: the picture shines with its own light");

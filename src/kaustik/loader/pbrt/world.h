@@ -20,6 +20,9 @@ class World {
  public:
   World(SceneFiles& files, Deviations& deviations);
 
+  /// What follows is of pbrt-v3 or older, which means other things by words that v4 has, too.
+  void become_old();
+
   void define_texture(const std::string& name, bool is_float, const std::string& type,
                       ParameterList list, const GraphicsState& state);
   /// Its index.
@@ -87,6 +90,7 @@ class World {
   Ids ids_;
   Materials materials_;
   Media media_;
+  bool is_old_ = false;  ///< become_old()
   size_t sequence_ = 1;  ///< how many things were defined
   std::vector<bool> textured_materials_;
   std::map<std::string, bool> textured_names_;

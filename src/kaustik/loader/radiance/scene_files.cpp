@@ -46,6 +46,17 @@ std::optional<fs::path> SceneFiles::find(const std::string& name, const fs::path
   return std::nullopt;
 }
 
+std::optional<fs::path> SceneFiles::find_part(const std::string& name, const fs::path& own_folder,
+                                              const Place& place) {
+  auto path = find(name, own_folder, place);
+  if (!path)
+    deviations_.missing("file " + name.substr(0, 200),
+                        "there is no such file beside the one that names it, nor in the folder of "
+                        "the scene: it is left out (folders of RAYPATH are not searched)",
+                        place);
+  return path;
+}
+
 fs::path SceneFiles::found(const std::string& name, const fs::path& own_folder,
                            const Place& place) {
   if (const auto path = find(name, own_folder, place)) return *path;
