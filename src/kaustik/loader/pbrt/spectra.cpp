@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kaustik/base/color.h"
+#include "kaustik/loader/lower_case.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/spectrum_file.h"
 
@@ -49,12 +50,6 @@ Rgb colour_of_light(double x, double y) {
   return {std::max(0.0, colour.r), std::max(0.0, colour.g), std::max(0.0, colour.b)};
 }
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return text;
-}
-
 }  // namespace
 
 std::optional<double> index_of_glass(const std::string& name) {
@@ -65,7 +60,7 @@ std::optional<double> index_of_glass(const std::string& name) {
 
 std::string metal_of(const std::string& name) {
   if (!name.starts_with("metal-")) return {};
-  const std::string metal = in_small_letters(name.substr(6, name.rfind('-') - 6));
+  const std::string metal = lower_case(name.substr(6, name.rfind('-') - 6));
   return std::ranges::find(metals, metal) != std::end(metals) ? metal : std::string();
 }
 
