@@ -70,18 +70,13 @@ class Materials {
 };
 
 /// What makers of single materials work with.
-struct MaterialTools {
+struct MaterialTools : Subject {
   Textures& textures;
   Spectra& spectra;
-  Deviations& deviations;
   const MaterialDefinition& definition;
 
   const ParameterList& list() const { return definition.parameters; }
   const Owner& owner() const { return definition.owner; }
-  const Place& place() const { return definition.parameters.place(); }
-  void approximated(const std::string& what) const {
-    deviations.approximated(owner().object, what, place());
-  }
 };
 
 std::shared_ptr<Object> make_diffuse(const MaterialTools& tools);

@@ -1,8 +1,10 @@
 #pragma once
 // Named textures of pbrt, and parameters that name them.
 
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kaustik/base/transform.h"
@@ -48,10 +50,16 @@ class Textures {
   /// Null: there is none. The last one before its user, or else the first one.
   Entry* find(const std::string& name, bool is_float, size_t sequence);
   const Input& made(Entry& entry);
+  using Maker = Input (Textures::*)(const TextureDefinition&);
+  static const std::map<std::string_view, Maker>& makers();
   Input make(const TextureDefinition& definition);
+  Input make_constant(const TextureDefinition& definition);
+  Input make_image(const TextureDefinition& definition);
+  Input make_dots(const TextureDefinition& definition);
+  Input make_ptex(const TextureDefinition& definition);
   Input make_picture(const TextureDefinition& definition, double power);
   Input make_scale(const TextureDefinition& definition);
-  Input make_mix(const TextureDefinition& definition, bool of_directions);
+  Input make_mix(const TextureDefinition& definition);
   Input make_checkerboard(const TextureDefinition& definition);
   Input make_bilinear(const TextureDefinition& definition);
   Input make_noise(const TextureDefinition& definition);
@@ -68,7 +76,8 @@ class Textures {
   Spectra& spectra_;
   Deviations& deviations_;
   std::vector<std::unique_ptr<Entry>> entries_;
-  std::map<std::pair<std::string, bool>, std::vector<size_t>> by_name_;
+  /// Those of colours, and those of numbers.
+  std::map<std::string, std::array<std::vector<size_t>, 2>> by_name_;
   int depth_ = 0;
 };
 

@@ -121,10 +121,7 @@ std::string upgraded_material(const std::string& type, ParameterList& list,
     rename(list, "index", "eta");
     return type;
   }
-  const bool is_old = type == "matte" || type == "plastic" || type == "substrate" ||
-                      type == "uber" || type == "translucent" || type == "kdsubsurface" ||
-                      type == "mirror" || type == "glass" || type == "metal";
-  if (!is_old) return type;
+  if (std::ranges::find(old_materials, type) == old_materials.end()) return type;
   rename(list, type == "mirror" ? "Kr" : "Kd", "reflectance");
   if (type == "matte") {
     if (const Parameter* sigma = parameter_named(list, "sigma"); sigma && !is_zero(sigma))

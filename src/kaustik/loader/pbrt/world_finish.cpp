@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/lights.h"
+#include "kaustik/loader/pbrt/shape_areas.h"
 #include "kaustik/loader/pbrt/texture_mixes.h"
 #include "kaustik/loader/pbrt/world.h"
 
@@ -114,7 +116,8 @@ void World::finish_instances(Object& scene) {
       const auto shapes = objects_.find(instance.group);
       if (shapes == objects_.end()) {
         deviations_.missing(fmt::format("object {}", shown(instance.group)),
-                            "it is not defined: it is left out", instance.place);
+                            "it is not defined: it is left out", instance.place,
+                            did_you_mean(instance.group, names_in(objects_)));
         continue;
       }
       auto group = described("shape", "shapegroup", instance.place);
