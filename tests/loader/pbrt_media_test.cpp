@@ -1,6 +1,7 @@
 // pbrt's media.
 
 #include "kaustik/base/file.h"
+#include "kaustik/loader/pbrt/cloud_density.h"
 #include "tests/loader/nanovdb_bytes.h"
 #include "tests/loader/pbrt_support.h"
 
@@ -133,6 +134,51 @@ TEST(PbrtMedia, TheOthersAreTold) {
   EXPECT_TRUE(is_missing(scene, "'a'", "x.nvdb"));
   EXPECT_TRUE(is_ignored(scene, "'b'", "no medium 'clowd'"));
   EXPECT_EQ(only(scene, "shape").children.size(), 1u);
+}
+
+TEST(PbrtClouds, NoiseIsThatOfPbrt) {
+  EXPECT_EQ(cloud_noise({0, 0, 0}), 0);
+  EXPECT_EQ(cloud_noise({7, -3, 260}), 0);
+  // Between (0, 0, 0), whose gradient is x + z (36 & 15 is 4), and (1, 0, 0), where it is x − z
+  // (6): 0.25 and −0.75, of which the second has the weight 6 t⁵ − 15 t⁴ + 10 t³ = 0.103515625.
+  EXPECT_NEAR(cloud_noise({.25, 0, 0}), .25 - .103515625, 1e-12);
+  // In the middle of that cell the corners have 1, 0, 0, 0, −1, −1, −1, 1.
+  EXPECT_NEAR(cloud_noise({.5, .5, .5}), -1. / 8, 1e-12);
+  EXPECT_NEAR(cloud_noise({256.5, -255.5, 512.5}), -1. / 8, 1e-12);
+}
+
+TEST(PbrtClouds, DensityFallsWithHeight) {
+  // Without noise what is left is twice the depth below one half.
+  for (const auto& [height, density] : {std::pair(-1., 1.), {0., 1.}, {.3, .4}, {.5, 0.}, {.9, 0.}})
+    EXPECT_NEAR(cloud_density({1, 1, 0}, {.2, height, .4}), density, 1e-12) << height;
+  // By pbrt's formula, evaluated by another program.
+  EXPECT_NEAR(cloud_density({1, 1, 5}, {.3, .6, .2}), .2604919533, 1e-9);
+  EXPECT_NEAR(cloud_density({2, 0, 3}, {.13, .7, .41}), .3718194318, 1e-9);
+  EXPECT_NEAR(cloud_density({2, 0, 3}, {.1, .75, .3}), .5002068949, 1e-9);
+  EXPECT_NEAR(cloud_density({1, 0, 1}, {.41, .62, .83}), .1546754094, 1e-9);
+}
+
+TEST(PbrtClouds, AreSampledInTheirBox) {
+  const Description scene = parse_scene_of_pbrt(R"(WorldBegin
+    Translate 1 0 0
+    MakeNamedMedium "c" "string type" "cloud" "float density" 2 "float wispiness" 0
+      "float frequency" 3 "point3 p0" [0 .4 0] "point3 p1" [4 .5 .1]
+      "rgb sigma_a" [1 1 1] "rgb sigma_s" [3 3 3] "float g" .2
+    MediumInterface "c" "" Shape "sphere")");
+  EXPECT_TRUE(is_approximated(scene, "'c'", "128 × 4 × 4 cells"));
+  EXPECT_EQ(scene.deviations.size(), 1u);
+  const Object& cloud = child(only(scene, "shape"), "interior");
+  expect_rgb(value<Rgb>(cloud, "albedo"), .75, .75, .75);
+  EXPECT_EQ(value<double>(only(cloud, "phase"), "g"), .2);
+  const Object& grid = child(cloud, "sigma_t");
+  const std::vector<float> samples = numbers_in<float>(grid, "data");
+  ASSERT_EQ(samples.size(), 128u * 4 * 4);
+  // The middle of cell (5, 1, 2).
+  const double density = cloud_density({2, 0, 3}, {5.5 / 32, .4 + 1.5 / 40, 2.5 / 40});
+  EXPECT_GT(density, .1);
+  EXPECT_NEAR(samples[5 + 128 * (1 + 4 * 2)], 4 * density, 1e-5);
+  expect_same(value<Transform>(grid, "to_world"),
+              Transform::translate({1, .4, 0}) * Transform::scale({4, .1, .1}), 1e-5);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
-// Media whose density is a grid, and files that become one.
+// Media whose density is a grid, and files and clouds that become one.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kaustik/loader/nanovdb_file.h"
+#include "kaustik/loader/pbrt/cloud_density.h"
 #include "kaustik/loader/pbrt/media.h"
 
 namespace kaustik::pbrt {
@@ -12,6 +14,9 @@ namespace {
 
 /// Of a file of NanoVDB, and what its dense grid may take whatever the file's size.
 constexpr size_t most_nanovdb_bytes = size_t{8} << 30, always_kept_bytes = size_t{64} << 20;
+
+/// Along the longest side of its box.
+constexpr size_t cells_along_cloud = 128;
 
 /// Samples along x, y and z. Throws Error(input) unless there are as many numbers.
 std::array<size_t, 3> grid_size(const ParameterList& list, const Parameter& samples,
@@ -142,6 +147,30 @@ std::shared_ptr<Object> Media::make_grid(const MediumDefinition& definition) {
   files_.spend(density->number_count() * coefficients.components() * sizeof(float), list.place());
   return with_density(definition, coefficients, std::span<const double>(density->numbers), size,
                       box_of(definition).to_world);
+}
+
+std::shared_ptr<Object> Media::make_cloud(const MediumDefinition& definition) {
+  const ParameterList& list = definition.parameters;
+  constexpr double most = 1e6;
+  const CloudShape cloud = {std::clamp(list.number("density", 1), -most, most),
+                            std::clamp(list.number("wispiness", 1), 0.0, most),
+                            std::clamp(list.number("frequency", 5), -most, most)};
+  const Box box = box_of(definition);
+  const double longest = std::max({box.size.x, box.size.y, box.size.z});
+  std::array<size_t, 3> size{};
+  for (int axis = 0; axis < 3; ++axis)
+    size[size_t(axis)] = size_t(std::ceil(box.size[axis] / longest * double(cells_along_cloud)));
+  const Coefficients coefficients = this->coefficients(definition);
+  const size_t count = size[0] * size[1] * size[2];
+  files_.spend(count * (1 + coefficients.components()) * sizeof(float), list.place());
+  const std::vector<float> density = cloud_densities(cloud, box.low, box.size, size);
+  deviations_.approximated(
+      definition.owner.object,
+      fmt::format("its density is sampled in {} × {} × {} cells, and linear between their middles",
+                  size[0], size[1], size[2]),
+      list.place());
+  return with_density(definition, coefficients, std::span<const float>(density), size,
+                      box.to_world);
 }
 
 std::shared_ptr<Object> Media::make_colour_grid(const MediumDefinition& definition) {

@@ -38,7 +38,7 @@ std::shared_ptr<Object> Media::named(const std::string& name, const Place& place
 
 const std::map<std::string_view, Media::Maker>& Media::makers() {
   static const std::map<std::string_view, Maker> rows = {
-      {"homogeneous", &Media::make_homogeneous},
+      {"cloud", &Media::make_cloud},      {"homogeneous", &Media::make_homogeneous},
       {"nanovdb", &Media::make_nanovdb},  {"rgbgrid", &Media::make_colour_grid},
       {"uniformgrid", &Media::make_grid},
   };

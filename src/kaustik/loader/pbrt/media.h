@@ -50,6 +50,7 @@ class Media {
   std::shared_ptr<Object> with_phase(std::shared_ptr<Object> medium,
                                      const MediumDefinition& definition);
   std::shared_ptr<Object> make_nanovdb(const MediumDefinition& definition);
+  std::shared_ptr<Object> make_cloud(const MediumDefinition& definition);
   Rgb coefficient(const MediumDefinition& definition, const char* name);
   /// sigma_s, and sigma_s + sigma_a.
   struct Coefficients {
