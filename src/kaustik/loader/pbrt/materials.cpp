@@ -109,7 +109,12 @@ const MadeMaterial& Materials::made(Entry& entry) {
                 "let it name other materials", definition.parameters.place());
   entry.state = Entry::State::being_made;
   ++depth_;
-  entry.made = make(definition);
+  MappingSet mappings;
+  {
+    const Textures::Collecting collecting(textures_, mappings);
+    entry.made = make(definition);
+  }
+  entry.made.mappings.merge(mappings);
   --depth_;
   if (!definition.name.empty() && entry.made.bsdf->id.empty())
     entry.made.bsdf->id = ids_.unused(definition.name);
@@ -182,6 +187,7 @@ MadeMaterial Materials::make_mix(const MaterialDefinition& definition) {
     set(*result.bsdf, "weight", 0.5);
   for (const std::string& name : names->texts) {
     const MadeMaterial& part = made({0, name, definition.owner.sequence, names->place});
+    result.mappings.insert(part.mappings.begin(), part.mappings.end());
     if (name == names->texts.front() || !result.interior) result.interior = part.interior;
     hold(*result.bsdf, "", part.bsdf);
   }

@@ -23,6 +23,7 @@ struct MadeMaterial {
   std::shared_ptr<Object> bsdf;
   std::shared_ptr<Object> interior;  ///< a medium that belongs to it; null: none
   bool is_interface = false;         ///< no surface is there
+  MappingSet mappings = {};          ///< what its textures lie by
 };
 
 /// Which material a shape has: one by its index, or by a name that may be defined later.

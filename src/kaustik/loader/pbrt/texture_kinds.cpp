@@ -211,6 +211,7 @@ Input Textures::make_picture(const TextureDefinition& definition, double power) 
 
 std::shared_ptr<Object> Textures::picture(const std::string& file, bool raw, const Owner& owner,
                                           const Place& place) {
+  laid_by(SurfaceMappings::by_uv);
   PictureTexture wanted;
   wanted.file = file;
   wanted.is_raw = raw;
@@ -220,18 +221,34 @@ std::shared_ptr<Object> Textures::picture(const std::string& file, bool raw, con
 Transform Textures::mapping(const TextureDefinition& definition) {
   const ParameterList& list = definition.parameters;
   const std::string kind = list.text("mapping", "uv");
-  const double su = list.number("uscale", 1), sv = list.number("vscale", 1);
-  const double du = list.number("udelta", 0), dv = list.number("vdelta", 0);
-  if (kind != "uv") {
-    list.accept({"v1", "v2"});
-    deviations_.approximated(
-        definition.owner.object,
-        fmt::format("it lies by the surface's uv, not by mapping {}", shown(kind)),
-        list.place_of("mapping"));
+  const auto number = [&](const char* name, double otherwise) {
+    return list.number(name, otherwise);
+  };
+  const double delta_u = number("udelta", 0), delta_v = number("vdelta", 0);
+  if (const auto in_space = mapping_kind_named(kind)) {
+    SurfaceMapping made;
+    made.kind = *in_space;
+    made.world_from_texture = definition.to_world;
+    made.along_u = list.point("v1").value_or(made.along_u);
+    made.along_v = list.point("v2").value_or(made.along_v);
+    made.delta_u = delta_u;
+    made.delta_v = delta_v;
+    made.name = kind;
+    made.object = definition.owner.object;
+    made.place = list.place_of("mapping");
+    laid_by(mappings_.index_of(std::move(made)));
     return {};
   }
-  const double rows[4][4] = {{su, 0, 0, du}, {0, sv, 0, dv}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-  return su != 0 && sv != 0 ? Transform(rows) : Transform::collapsing(rows);
+  if (kind != "uv")
+    deviations_.approximated(
+        definition.owner.object,
+        fmt::format("there is no mapping {}: it lies by the surface's uv", shown(kind)),
+        list.place_of("mapping"), did_you_mean(kind, {"uv", "planar", "spherical", "cylindrical"}));
+  laid_by(SurfaceMappings::by_uv);
+  const double scale_u = number("uscale", 1), scale_v = number("vscale", 1);
+  const double rows[4][4] = {
+      {scale_u, 0, 0, delta_u}, {0, scale_v, 0, delta_v}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  return scale_u != 0 && scale_v != 0 ? Transform(rows) : Transform::collapsing(rows);
 }
 
 }  // namespace kaustik::pbrt

@@ -31,7 +31,10 @@ Textures::Entry* Textures::find(const std::string& name, bool is_float, size_t s
 }
 
 const Input& Textures::made(Entry& entry) {
-  if (entry.state == Entry::State::made) return entry.made;
+  if (entry.state == Entry::State::made) {
+    for (const size_t mapping : entry.mappings) laid_by(mapping);
+    return entry.made;
+  }
   const TextureDefinition& definition = entry.definition;
   if (entry.state == Entry::State::being_made || depth_ >= most_levels)
     throw Error(ErrorKind::input,
@@ -41,7 +44,11 @@ const Input& Textures::made(Entry& entry) {
                 "let it name other textures", definition.parameters.place());
   entry.state = Entry::State::being_made;
   ++depth_;
-  entry.made = make(definition);
+  {
+    const Collecting collecting(*this, entry.mappings);
+    entry.made = make(definition);
+  }
+  for (const size_t mapping : entry.mappings) laid_by(mapping);
   --depth_;
   if (!entry.made.is_given()) entry.made.value = 0.5;
   entry.state = Entry::State::made;

@@ -69,7 +69,7 @@ void World::define_texture(const std::string& name, bool is_float, const std::st
   add_defaults(list, state, AttributeKind::texture);
   Owner by = owner(object_name("texture", name), state);
   ++sequence_;
-  textures_.define({name, type, is_float, std::move(list), std::move(by)});
+  textures_.define({name, type, is_float, std::move(list), std::move(by), state.transform.start});
 }
 
 size_t World::define_material(const std::string& name, const std::string& type, ParameterList list,
