@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/pbrt/camera.h"
 
 namespace kaustik::pbrt {
@@ -46,7 +47,8 @@ std::shared_ptr<Object> make_filter(const ViewTools& tools, const ViewSettings& 
     if (filter.type != "gaussian")
       tools.deviations.approximated(
           "pixel filter",
-          fmt::format("there is no filter {}: it is 'gaussian'", shown(filter.type)), place);
+          fmt::format("there is no filter {}: it is 'gaussian'", shown(filter.type)), place,
+          did_you_mean(filter.type, {"box", "gaussian", "mitchell", "sinc", "triangle"}));
   }
   list.tell_unused("pixel filter", tools.deviations);
   return made;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/picture_textures.h"
 
@@ -18,13 +20,12 @@ using std::numbers::pi;
 double radians(double degrees) { return degrees * pi / 180; }
 
 /// One lamp as it is read.
-struct Lamp {
+struct Lamp : Subject {
   const LightTools& tools;
   const ParameterList& list;
   const Owner& owner;
   const Transform& to_world;
 
-  const Place& place() const { return list.place(); }
   /// Its light, white of luminance 1 where nothing is given, times `scale` and that factor.
   Value light(const char* name, double factor) const {
     Value value = tools.spectra.read(list, name, SpectrumUse::light, owner).value_or(1.0);
@@ -36,9 +37,6 @@ struct Lamp {
   double factor_for(const char* name, double of_one) const {
     const double wanted = list.number(name, -1);
     return wanted > 0 && of_one > 0 ? wanted / of_one : 1;
-  }
-  void approximated(const std::string& what) const {
-    tools.deviations.approximated(owner.object, what, place());
   }
   /// By which pbrt-v3 multiplies a picture: the luminance of that light.
   double factor_of_picture(const char* name) const {
@@ -130,10 +128,10 @@ std::shared_ptr<Object> make_infinite(const Lamp& lamp) {
   const auto path = file.empty() ? std::nullopt : lamp.tools.files.find(file, place);
   if (!path || !is_readable_picture(path->string())) {
     if (!file.empty())
-      lamp.tools.deviations.missing(
-          lamp.owner.object,
+      lamp.deviations.missing(
+          lamp.object,
           fmt::format("picture {} is not there: light is alike from everywhere", shown(file)),
-          place);
+          place, where_files_lie);
     auto light = described("emitter", "constant", place);
     set(*light, "radiance", lamp.light("L", lamp.factor_for("illuminance", pi)));
     return light;
@@ -178,28 +176,35 @@ std::shared_ptr<Object> make_goniometric(const Lamp& lamp) {
   return make_point(lamp);
 }
 
+using LightMaker = std::shared_ptr<Object> (*)(const Lamp&);
+
+const std::map<std::string_view, LightMaker>& light_makers() {
+  static const std::map<std::string_view, LightMaker> rows = {
+      {"distant", make_distant},   {"exinfinite", make_infinite}, {"goniometric", make_goniometric},
+      {"infinite", make_infinite}, {"point", make_point},         {"projection", make_projection},
+      {"spot", make_spot},
+  };
+  return rows;
+}
+
 }  // namespace
 
 std::shared_ptr<Object> make_light(const LightTools& tools, const std::string& type,
                                    const ParameterList& list, const Owner& owner,
                                    const Transform& to_world) {
-  const Lamp lamp{tools, list, owner, to_world};
+  const Lamp lamp{{tools.deviations, owner.object, list.place()}, tools, list, owner, to_world};
   list.accept({"nsamples", "samples"});
-  if (type == "point") return make_point(lamp);
-  if (type == "spot") return make_spot(lamp);
-  if (type == "distant") return make_distant(lamp);
-  if (type == "infinite" || type == "exinfinite") return make_infinite(lamp);
-  if (type == "projection") return make_projection(lamp);
-  if (type == "goniometric") return make_goniometric(lamp);
+  const auto maker = light_makers().find(type);
+  if (maker != light_makers().end()) return maker->second(lamp);
   tools.deviations.ignored(owner.object, fmt::format("there is no light {}", shown(type)),
-                           list.place());
+                           list.place(), did_you_mean(type, names_in(light_makers())));
   return nullptr;
 }
 
 std::shared_ptr<Object> make_area_light(const LightTools& tools, const AreaLight& light,
                                         const Owner& owner, std::optional<double> area) {
   const ParameterList& list = light.parameters;
-  const Lamp lamp{tools, list, owner, {}};
+  const Lamp lamp{{tools.deviations, owner.object, list.place()}, tools, list, owner, {}};
   if (light.type != "diffuse" && light.type != "area")
     lamp.approximated(fmt::format("it shines as one of type 'diffuse', not {}", shown(light.type)));
   list.accept({"nsamples", "samples"});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kaustik/base/color.h"
+#include "kaustik/loader/lower_case.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/spectrum_file.h"
 
@@ -49,15 +50,9 @@ Rgb colour_of_light(double x, double y) {
   return {std::max(0.0, colour.r), std::max(0.0, colour.g), std::max(0.0, colour.b)};
 }
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return text;
-}
-
 /// Of Kaustik's; "": it is none.
 std::string known_metal(const std::string& name) {
-  const std::string metal = in_small_letters(name);
+  const std::string metal = lower_case(name);
   return std::ranges::find(metals, metal) != std::end(metals) ? metal : std::string();
 }
 

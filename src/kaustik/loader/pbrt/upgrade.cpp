@@ -142,9 +142,7 @@ void upgrade_mix(ParameterList& list, const std::string& object, Deviations& dev
 }
 
 bool is_of_old(const std::string& type) {
-  return type == "matte" || type == "plastic" || type == "substrate" || type == "uber" ||
-         type == "translucent" || type == "kdsubsurface" || type == "mirror" || type == "glass" ||
-         type == "metal";
+  return std::ranges::find(old_materials, type) != old_materials.end();
 }
 
 std::string upgraded_type(const std::string& type, ParameterList& list, const std::string& object,

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "kaustik/loader/deviations.h"
 #include "kaustik/loader/pbrt/parameters.h"
@@ -7,6 +9,11 @@
 namespace kaustik::pbrt {
 
 // Files of pbrt-v3 in terms of v4. Names of v4 stay as they are; what changes in looks is told.
+
+/// Materials that v4 has under other names.
+inline constexpr std::array<std::string_view, 9> old_materials = {
+    "matte",        "plastic", "substrate", "uber", "translucent",
+    "kdsubsurface", "mirror",  "glass",     "metal"};
 
 /// The type that the material has in v4; its parameters are renamed, and its roughness is that of
 /// v4 for the same slope of facets. `is_old_file`: types that v4 has, too, are those of v3.

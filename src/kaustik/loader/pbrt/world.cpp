@@ -74,7 +74,7 @@ void World::define_texture(const std::string& name, bool is_float, const std::st
   add_defaults(list, state, AttributeKind::texture);
   Owner by = owner(object_name("texture", name), state);
   ++sequence_;
-  textures_.define({name, type, is_float, std::move(list), std::move(by)});
+  textures_.define({name, type, is_float, std::move(list), std::move(by), state.transform.start});
 }
 
 size_t World::define_material(const std::string& name, const std::string& type, ParameterList list,
@@ -146,8 +146,12 @@ void World::add_shape(const std::string& type, ParameterList list, const Graphic
   const Transform to_world = resting(state.transform, pending.object, list.place());
   const bool is_textured = may_be_textured(state.material) || !pending.alpha.empty() ||
                            (pending.light && pending.light->parameters.has("filename"));
-  const ShapeTools tools{
-      files_, deviations_, pending.object, list, to_world, state.reverses_orientation, is_textured};
+  const ShapeTools tools{{deviations_, pending.object, list.place()},
+                         files_,
+                         list,
+                         to_world,
+                         state.reverses_orientation,
+                         is_textured};
   pending.is_flipped = state.reverses_orientation;
   if (type == "curve") {
     add_curve_of(tools, std::move(pending));

@@ -80,6 +80,8 @@ class World {
                   bool is_hidden);
   std::shared_ptr<Object> masked(const std::shared_ptr<Object>& bsdf, const Input& alpha);
   std::shared_ptr<Object> emitter_of(const PendingShape& pending);
+  /// Puts the uv of its textures' mapping in place of the shape's own, or tells why not.
+  void lay_textures(const PendingShape& pending, const MappingSet& mappings, bool is_in_group);
   void give_media(PendingShape& pending, const MadeMaterial& material);
   void finish_instances(Object& scene);
 
