@@ -288,8 +288,10 @@ void Framing::add_studio_light() {
   Object& scene = *description_.scene;
   // Of the white: that of the even light, and the irradiance from the lamp over π.
   constexpr double white = studio_luminance / lumens_per_watt_white;
-  constexpr double even = 0.4, half_side = 1.5;
-  const double form_factor = 4 * half_side * half_side / (lamp_distance * lamp_distance);
+  constexpr double even = 0.5, half_side = 2.5;
+  // Irradiance over radiance of a square that a surface faces, in front of its middle.
+  const double sine = half_side / std::hypot(half_side, lamp_distance);
+  const double form_factor = 4 * sine * std::atan(sine);
   auto around = make_object("emitter", "constant", scene.place);
   give(*around, "radiance", even * white);
   put(scene, "", around);
