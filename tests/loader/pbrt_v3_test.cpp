@@ -6,6 +6,7 @@
 
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/colour_space.h"
+#include "kaustik/loader/pbrt/shape_areas.h"
 #include "kaustik/loader/pbrt/shapes.h"
 #include "kaustik/loader/pbrt/upgrade.h"
 #include "tests/loader/pbrt_support.h"
