@@ -183,8 +183,8 @@ TEST(GltfExtensions, MeshesWhosePackedDataAreMissingAreBoxes) {
   const Object& box = shape_in(description);
   EXPECT_EQ(box.type, "cube");
   EXPECT_EQ(value<Transform>(box, "to_world").point(Vec3f(1, 1, 1)), Vec3f(3, 4, 6));
-  EXPECT_TRUE(has_deviation(description, DeviationKind::missing,
-                            "mesh 'vase': there is no file 'no.bin'"));
+  EXPECT_TRUE(
+      has_deviation(description, DeviationKind::missing, "mesh 'vase': there is no file 'no.bin'"));
 }
 
 TEST(GltfExtensions, StrictReadingRefusesDeviations) {
