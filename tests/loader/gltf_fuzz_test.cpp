@@ -56,7 +56,7 @@ bool survives(const std::string& text) {
   return false;
 }
 
-constexpr int rounds = damage_rounds(3000, 300);
+const int rounds = damage_rounds(3000, 300);
 
 TEST(GltfFuzz, TheWholeSceneIsSound) {
   EXPECT_TRUE(survives(buffer().as_json(rest())));

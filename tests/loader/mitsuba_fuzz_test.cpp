@@ -56,7 +56,7 @@ TEST(MitsubaFuzz, TruncatedAtEveryByte) {
   EXPECT_TRUE(survives(whole.substr(0, end)));
 }
 
-constexpr int rounds = damage_rounds(20000, 2000);
+const int rounds = damage_rounds(20000, 2000);
 
 TEST(MitsubaFuzz, FlippedBytes) {
   const int refused = count_refused(whole, 1, rounds, 4, flip_byte, survives);

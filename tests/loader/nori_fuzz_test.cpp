@@ -48,7 +48,7 @@ bool survives_nori(const std::string& text, const TemporaryFolder* folder = null
   return false;
 }
 
-constexpr int nori_rounds = damage_rounds(3000, 500);
+const int nori_rounds = damage_rounds(3000, 500);
 
 TEST(NoriFuzz, TheWholeFilesAreSound) {
   const TemporaryFolder folder;

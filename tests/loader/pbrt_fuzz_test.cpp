@@ -66,7 +66,7 @@ TEST(PbrtFuzz, TruncatedAtEveryByte) {
   for (size_t size = 0; size < whole_pbrt.size(); ++size) survives_pbrt(whole_pbrt.substr(0, size));
 }
 
-constexpr int pbrt_rounds = damage_rounds(3000, 500);
+const int pbrt_rounds = damage_rounds(3000, 500);
 
 TEST(PbrtFuzz, FlippedBytes) {
   const int refused = count_refused(whole_pbrt, 1, pbrt_rounds, 4, flip_byte, survives_pbrt);

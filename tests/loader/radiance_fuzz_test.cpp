@@ -57,7 +57,7 @@ TEST(RadianceFuzz, TruncatedAtEveryByte) {
   EXPECT_GT(refused, int(whole_rad.size()) / 6);
 }
 
-constexpr int rad_rounds = damage_rounds(800, 100);
+const int rad_rounds = damage_rounds(800, 100);
 
 TEST(RadianceFuzz, FlippedBytes) {
   const int refused = count_refused(whole_rad, 1, rad_rounds, 4, flip_byte, survives_rad);
