@@ -119,7 +119,8 @@ TEST_F(Batches, FailuresTellNothingOfOthers) {
 TEST_F(Batches, EndEarly) {
   write_study(R"({"option": "passes", "values": [100000, 2]})");
   std::string text = contents("study.json");
-  text.replace(text.find("\"passes\": 16, \"spp\": 256"), 26, "\"denoise\": true");
+  const std::string end = "\"passes\": 16, \"spp\": 256";
+  text.replace(text.find(end), end.size(), "\"denoise\": true");
   write("study.json", text);
   RunOptions options;
   options.interrupt_at = "1 of 2: passes-100000";

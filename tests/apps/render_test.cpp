@@ -125,7 +125,7 @@ TEST_F(Render, WithoutOutputTheSceneNamesTheFile) {
 TEST_F(Render, MoreThreadsThanTheMachineHasAreNotUsed) {
   const RunResult result =
       run_well({"render", "path.xml", "-q", "--spp", "1", "--threads", "4096", "-o", "a.exr"});
-  EXPECT_TRUE(contains(result.err, "--threads 4096: this machine runs")) << result.err;
+  EXPECT_TRUE(contains(result.err, "--threads 4096: this process may run")) << result.err;
   EXPECT_FALSE(contains(result.err, "TBB")) << result.err;
 }
 
