@@ -190,5 +190,14 @@ TEST(PbrtV3, AWholeScene) {
   EXPECT_TRUE(is_missing(scene, "'t'", "not there"));
 }
 
+// pbrt-v2's own scene of metal has one.
+TEST(PbrtOldTextures, NegativeFactorsCountAsPositive) {
+  const Description scene = parse_scene_of_pbrt(
+      "WorldBegin\nTexture \"tiles\" \"float\" \"checkerboard\"\n"
+      "Texture \"s\" \"float\" \"scale\" \"texture tex1\" \"tiles\" \"float tex2\" [-.25]\n"
+      "Material \"diffuse\" \"texture displacement\" \"s\"\nShape \"sphere\"\n");
+  EXPECT_TRUE(is_approximated(scene, "s", "counts as positive"));
+}
+
 }  // namespace
 }  // namespace kaustik::pbrt

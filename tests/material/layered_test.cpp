@@ -237,7 +237,6 @@ TEST(coating, absorbs_along_the_refracted_way) {
     EXPECT_NEAR(coated->albedo(radiance(), wo, Lobes::all)[int(lane)],
                 reflected + through * through, 1e-5);
   }
-  EXPECT_THROW(make_bsdf("coating", {}, {make_bsdf("dielectric")}), Error);
 }
 
 // ---- openpbr ----

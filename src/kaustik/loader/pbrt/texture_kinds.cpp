@@ -100,6 +100,14 @@ Input Textures::make_scale(const TextureDefinition& definition) {
                         : number(definition.parameters, "scale", definition.owner);
   if (!factor.is_given()) factor.value = 1.0;
   if (value.value && factor.texture) std::swap(value, factor);
+  if (const auto number = factor.value ? as_number(*factor.value) : std::nullopt;
+      number && *number < 0) {
+    factor.value = -*number;
+    deviations_.approximated(definition.owner.object,
+                             "its factor is negative, and counts as positive: relief is turned "
+                             "inside out",
+                             place);
+  }
   if (factor.value) return times(value, *factor.value, place);
   if (is_old && !definition.is_float)
     deviations_.approximated(definition.owner.object,
