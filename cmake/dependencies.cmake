@@ -12,6 +12,7 @@ foreach(library Threads Imath TBB fmt OpenEXR TIFF PNG JPEG pugixml ZLIB)
 endforeach()
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
+pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
 add_library(hwy ALIAS PkgConfig::HWY)
 # Of the room view: headers.
 find_package(Boost 1.75 REQUIRED)

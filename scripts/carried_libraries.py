@@ -24,7 +24,7 @@ licences = {
     "libopenexr-3-1-30": "BSD-3-Clause", "libimath-3-1-29": "BSD-3-Clause", "libwebp7": "BSD-3-Clause",
     "libzstd1": "BSD-3-Clause", "libjpeg62-turbo": "IJG AND BSD-3-Clause AND Zlib", "libtiff6": "libtiff",
     "libpng16-16": "libpng-2.0", "zlib1g": "Zlib", "libdeflate0": "MIT", "libfmt9": "MIT", "libpugixml1v5": "MIT",
-    "liblzma5": "LicenseRef-PublicDomain",
+    "liblzma5": "LicenseRef-PublicDomain", "libdraco7": "Apache-2.0",
 }
 #: Of libraries that are compiled into the program and the module: a header of each tells the package. Boost's licence
 #: asks for no text there.

@@ -158,6 +158,7 @@ BEGIN {
   own("libwebp", "^webp/", "image", not_in_word "(WebP[A-Z]|VP8)[A-Za-z_]+[ (;]")
   own("Embree", "^embree[34]/", "geometry", not_in_word "(RTC[A-Z][A-Za-z]+|rtc[A-Z][A-Za-z]+)")
   own("Highway", "^hwy/", "light photon vcm", not_in_word "hwy::")
+  own("Draco", "^draco/", "loader", not_in_word "draco::")
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("zlib", "^zlib", "base", not_in_word "z_stream")
   own("pybind11", "^pybind11/", "python", not_in_word "pybind11::")

@@ -15,6 +15,7 @@ void add_denoise(CLI::App& program);
 void add_photons(CLI::App& program);
 void add_resume(CLI::App& program);
 void add_learn(CLI::App& program);
+void add_batch(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_view(CLI::App& program);
 void add_stitch(CLI::App& program);

@@ -115,10 +115,11 @@ void convert(const ConvertOptions& options) {
   written.write(options.output, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
   written.keep();
   for (const FileToWrite& file : scene.files)
-    say("wrote {}: {}, which Mitsuba 3 would read differently from its old file", file.path,
+    say("wrote {}: {} of {}, as Mitsuba 3 reads it", file.path,
         file.is_mesh()     ? "a mesh"
         : file.is_volume() ? "a volume"
-                           : "a picture");
+                           : "a picture",
+        options.scene);
   say("wrote {}: {} in Mitsuba 3's XML; all {}meshes and pictures are named as before",
       options.output, options.scene, scene.files.empty() ? "" : "other ");
 }

@@ -38,6 +38,7 @@ Events& events() {
 
 void Events::begin(std::unique_ptr<EventStream> stream, const std::string& command,
                    const std::string& scene) {
+  *this = Events();
   stream_ = std::move(stream);
   is_on_screen_ = stream_->is_same_as(STDERR_FILENO);
   if (is_on_screen_)

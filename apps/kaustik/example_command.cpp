@@ -10,6 +10,7 @@
 #include "option_values.h"
 #include "scene_options.h"
 #include "screen.h"
+#include "shell_words.h"
 
 namespace kaustik::app {
 namespace {
@@ -34,18 +35,6 @@ const Example& find_example(const std::string& name) {
   return *found;
 }
 
-/// As a shell has to see it.
-std::string quoted(const std::string& path) {
-  const bool is_plain = std::all_of(path.begin(), path.end(), [](unsigned char c) {
-    return std::isalnum(c) || c >= 0x80 ||
-           std::string_view("._-/+,:@").find(char(c)) != std::string::npos;
-  });
-  if (is_plain) return path;
-  std::string text = "'";
-  for (const char c : path) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 void write_example(const ExampleOptions& options) {
   const Example& example = find_example(options.name);
   const std::string output = options.output.empty() ? std::string(example.file) : options.output;
@@ -53,11 +42,11 @@ void write_example(const ExampleOptions& options) {
   FileRoles roles;
   roles.writes(output, any_file, options.force ? Replacing::anything : Replacing::nothing,
                "choose another name: -o FILE");
-  write_file_atomically(
-      output, {reinterpret_cast<const uint8_t*>(example.text.data()), example.text.size()});
+  write_text_atomically(output, example.text);
   say("wrote {}: {}", output, sentence_of(example));
-  say("render it:  kaustik render {} --time 20s -o {}.png", quoted(output), name_of(example));
-  say("or live:    kaustik view {}", quoted(output));
+  say("render it:  kaustik render {} --time 20s -o {}.png", quoted_for_shell(output),
+      name_of(example));
+  say("or live:    kaustik view {}", quoted_for_shell(output));
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ const std::vector<ExitCode>& exit_codes() {
       {std::to_string(exit_input),
        "something is wrong with the command line, the scene or another file"},
       {std::to_string(exit_ended_early),
-       "ended early by Ctrl-C or another signal, or a part by --time: the finished passes are "
+       "ended early by Ctrl-C or another signal, or a part by its time limit: the finished passes "
+       "are "
        "written"},
       {"128+n", "ended at once by signal n, such as a second Ctrl-C: files are unchanged"}};
   return codes;

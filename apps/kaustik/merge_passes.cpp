@@ -77,6 +77,7 @@ Checkpoint merged_checkpoints(const std::vector<std::string>& paths) {
 void merge_passes(const MergeOptions& options, FileRoles& roles) {
   OutputPlan images;
   images.files = images_of(options);
+  refuse_tables(images);
   check_outputs(images, roles);
   for (const std::string& output : options.outputs)
     if (names_checkpoint(output))

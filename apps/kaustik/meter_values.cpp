@@ -23,10 +23,17 @@ JsonObject facts_of(const Measurement& one, const std::string& unit) {
   return facts.add("value", one.value).add("half_width", one.half_width).add("unit", unit);
 }
 
-/// "299.03 ± 0.0013"
+/// "299.0330 ± 0.0013", "7500 ± 5200": both to the second digit of half the interval.
 std::string interval_text(const Measurement& one) {
-  return std::isfinite(one.half_width) ? fmt::format("{:.6g} ± {:.2g}", one.value, one.half_width)
-                                       : fmt::format("{:.6g} ± unknown", one.value);
+  if (!std::isfinite(one.half_width)) return fmt::format("{:.6g} ± unknown", one.value);
+  constexpr double least_share = 1e-9;
+  if (!(one.half_width > least_share * std::abs(one.value)))
+    return fmt::format("{:.6g} ± {:.2g}", one.value, one.half_width);
+  const int exponent = int(std::floor(std::log10(one.half_width))) - 1;
+  const double step = std::pow(10.0, exponent);
+  const auto rounded = [&](double number) { return std::round(number / step) * step; };
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}", rounded(one.value), rounded(one.half_width),
+                     std::max(0, -exponent));
 }
 
 void print_values(const std::vector<Measurement>& list, const std::string& quantity,

@@ -79,6 +79,15 @@ const std::vector<std::string>& written_extensions() {
   return extensions;
 }
 
+const std::vector<std::string>& rendered_extensions() {
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> all = written_extensions();
+    all.emplace_back("csv");
+    return all;
+  }();
+  return extensions;
+}
+
 const std::vector<std::string>& shown_extensions() {
   static const std::vector<std::string> extensions{"png", "jpg", "jpeg", "ppm", "tif", "tiff"};
   return extensions;

@@ -38,8 +38,9 @@ OptionValues values_of(const CLI::Option* option);
 
 // Extensions of files that several commands take.
 const std::vector<std::string>& scene_extensions();
-const std::vector<std::string>& picture_extensions();  ///< that can be read
-const std::vector<std::string>& written_extensions();  ///< of render's pictures
-const std::vector<std::string>& shown_extensions();    ///< of pictures for displays
+const std::vector<std::string>& picture_extensions();   ///< that can be read
+const std::vector<std::string>& written_extensions();   ///< of pictures with light in them
+const std::vector<std::string>& rendered_extensions();  ///< of those, and tables of meters
+const std::vector<std::string>& shown_extensions();     ///< of pictures for displays
 
 }  // namespace kaustik::app

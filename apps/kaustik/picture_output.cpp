@@ -8,7 +8,9 @@
 #include <variant>
 
 #include "events.h"
+#include "kaustik/base/file.h"
 #include "kaustik/render/part_picture.h"
+#include "meter_table.h"
 #include "picture_file.h"
 #include "screen.h"
 #include "standard_streams.h"
@@ -17,10 +19,21 @@ namespace kaustik::app {
 
 void check_outputs(const OutputPlan& outputs, FileRoles& roles) {
   for (const std::string& file : outputs.files) {
-    check_picture_writable(file);
+    if (is_table(file))
+      check_output_path(file);
+    else
+      check_picture_writable(file);
     roles.writes(file);
   }
   make_tone_operator(outputs.tone, outputs.tone_settings);
+}
+
+void refuse_tables(const OutputPlan& outputs) {
+  for (const std::string& file : outputs.files)
+    if (is_table(file))
+      throw Error(ErrorKind::input,
+                  fmt::format("the table '{}' needs the scene, which is not read here", file),
+                  fmt::format("write a checkpoint, then: kaustik resume FILE.kpt -o {}", file));
 }
 
 bool needs_layers(const OutputPlan& outputs) {
@@ -56,6 +69,15 @@ JsonObject picture_facts(const Image& image, PictureState state) {
   return facts;
 }
 
+/// What the film's meter shows, as far as it is known.
+void write_measurements(const Film& film, const Scene& scene, const std::string& file) {
+  if (film.pass_count() == 0)
+    throw Error(ErrorKind::input,
+                fmt::format("the table '{}' is not written: no pass was finished", file),
+                "render longer (--time, --passes)");
+  write_table(measurements(scene, film), scene.camera().traits().meter_unit, file);
+}
+
 }  // namespace
 
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
@@ -66,17 +88,24 @@ void write_pictures(const Film& film, const RenderRecord& record, const OutputOp
   bool is_made = false;
   failures.attempt_to("make the picture", [&] {
     write = write_options(record.outputs);
+    if (std::ranges::all_of(record.outputs.files, is_table)) return;
     image =
         finished_picture(picture ? picture() : film.image(), record, options.facts, {note, warn});
     is_made = true;
   });
-  if (!is_made) return;
-  for (const std::string& file : record.outputs.files)
+  for (const std::string& file : record.outputs.files) {
+    if (!is_made && !is_table(file)) continue;
     failures.attempt(file, [&] {
-      write_picture(image, file, write);
-      events().written(picture_name(file), picture_facts(image, state));
+      if (is_table(file)) {
+        write_measurements(film, *options.scene, file);
+        events().written(file, JsonObject().add("state", state_name(state)));
+      } else {
+        write_picture(image, file, write);
+        events().written(picture_name(file), picture_facts(image, state));
+      }
       if (!options.quiet) say("wrote {}", picture_name(file));
     });
+  }
 }
 
 bool write_snapshot(const Job& job, const OutputPlan& outputs) {
@@ -84,8 +113,8 @@ bool write_snapshot(const Job& job, const OutputPlan& outputs) {
   if (!image) return false;
   const WriteOptions write = write_options(outputs);
   for (const std::string& file : outputs.files) {
-    if (is_standard_stream(file)) {
-      note("standard output gets the last picture only");
+    if (is_standard_stream(file) || is_table(file)) {
+      note(fmt::format("{} is written at the end only", picture_name(file)));
       continue;
     }
     try {

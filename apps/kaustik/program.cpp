@@ -60,13 +60,37 @@ void add_commands(CLI::App& program) {
   const Group groups[] = {{"Scenes", {add_example, add_info, add_convert, add_test}},
                           {"Render", {add_render, add_view, add_resume, add_photons, add_learn}},
                           {"Pictures", {add_tonemap, add_compare, add_denoise}},
-                          {"Parts", {add_merge, add_stitch}},
+                          {"Parts", {add_batch, add_merge, add_stitch}},
                           {"Help", {add_help, add_man, add_completion}}};
   for (const Group& group : groups)
     for (const auto add : group.commands) {
       add(program);
       program.get_subcommands({}).back()->group(group.name);
     }
+}
+
+/// CLI11 would list all words that it cannot place, the last one first.
+kaustik::Error unknown_word(const CLI::App& program) {
+  using namespace kaustik;
+  const CLI::App& command =
+      program.get_subcommands().empty() ? program : *program.get_subcommands().front();
+  const std::vector<std::string> words = program.remaining(true);
+  const auto option = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+    return word.size() > 1 && word.starts_with('-');
+  });
+  const std::string all = fmt::format("all options: kaustik {} --help", command.get_name());
+  if (option == words.end())
+    return Error(ErrorKind::input,
+                 fmt::format("'{}' is one word too many", words.empty() ? "" : words.front()), all);
+  const std::string name = option->substr(0, option->find('='));
+  if ((name == "--width" || name == "--height") && command.get_option_no_throw("--set"))
+    return Error(ErrorKind::input, fmt::format("there is no option {}", name),
+                 fmt::format("change the film: --set film.{}=…", name.substr(2)));
+  std::vector<std::string> known;
+  for (const CLI::Option* one : command.get_options())
+    for (const std::string& known_name : one->get_lnames()) known.push_back("--" + known_name);
+  return Error(ErrorKind::input, fmt::format("there is no option {}", name),
+               suggest(name, known) + "; " + all);
 }
 
 int run(int argc, char** argv) {
@@ -93,6 +117,8 @@ int run(int argc, char** argv) {
   check_command(argv[1], program);
   try {
     program.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    throw unknown_word(program);
   } catch (const CLI::ParseError& error) {
     if (program.exit(error) != 0) return kaustik::app::exit_input;
   }

@@ -68,7 +68,8 @@ void name_picture(RenderOptions& options) {
   if (is_standard_stream(scene))
     throw Error(ErrorKind::input, "a scene from standard input gives its picture no name",
                 "say what to write: -o FILE");
-  options.outputs.files.push_back(std::filesystem::path(scene).stem().string() + ".exr");
+  const char* const extension = options.recipe.points.empty() ? ".exr" : ".csv";
+  options.outputs.files.push_back(std::filesystem::path(scene).stem().string() + extension);
 }
 
 /// Whether there is one to go on with.
@@ -136,6 +137,7 @@ void render(RenderOptions options) {
   check_views(options.views);
   FileRoles roles;
   roles.reads_scene(recipe.scene);
+  if (!recipe.points.empty()) roles.reads(recipe.points);
   if (options.learned) {
     roles.reads(*options.learned);
     job.learned = read_lessons(*options.learned);
@@ -208,13 +210,20 @@ void add_render(CLI::App& program) {
           ->add_option(
               "-o,--output", options->outputs.files,
               "Image to write; the extension gives the format: exr, hdr, pfm, tif (LogLuv), png, "
-              "jpg, ppm; - or png:- for standard output; may be repeated [SCENE.exr]")
+              "jpg, ppm, and csv for a table of what a meter shows; - or png:- for standard "
+              "output; may be repeated [SCENE.exr]")
           ->take_all()
           ->allow_extra_args(false),
-      written_extensions());
+      rendered_extensions());
   add_definitions(*command, options->definitions);
   add_strict(*command, options->recipe.is_strict);
   add_camera(*command, options->recipe.camera);
+  takes_files(
+      command->add_option("--points", options->recipe.points,
+                          "Measure the illuminance at points instead of making a picture: "
+                          "a text file with x y z of each and of its normal [to SCENE.csv]"),
+      {"txt", "pts", "csv"})
+      ->excludes(command->get_option("--camera"));
   add_settings(*command, options->settings,
                "integrator.caustic_neighbors=200, film.width=400, ID.radius=2");
   takes_words(
@@ -289,7 +298,7 @@ void add_render(CLI::App& program) {
                     "Smooth the picture's noise like kaustik denoise; the EXR's layers keep it");
   command->add_flag("--reproducible", options->outputs.reproducible,
                     "Write no times, so equal renders give equal files");
-  add_progress(*command, options->progress, "No progress");
+  add_progress(*command, options->progress, "No progress, notes and values of meters");
   add_views(*command, options->views);
   command->callback([options] { render(*options); });
 }

@@ -11,9 +11,12 @@
 #include "events.h"
 #include "exit_codes.h"
 #include "failures.h"
+#include "kaustik/base/photometric_units.h"
+#include "kaustik/render/film_errors.h"
 #include "kaustik/render/measurements.h"
 #include "kaustik/render/part_picture.h"
 #include "kaustik/scene/scene.h"
+#include "meter_table.h"
 #include "meter_values.h"
 #include "picture_output.h"
 #include "picture_watch.h"
@@ -30,6 +33,8 @@ namespace {
 Image first_look(const Job& job) {
   Image image = job.snapshot().value();
   const MetadataValue* shown = image.find_metadata(incomplete_key);
+  if (is_meter(job.scene()))
+    warn("no value was measured: the time was over before the first pass was done; give more");
   warn(fmt::format("the time was over before every pixel had a sample: the picture is {}",
                    shown ? std::get<std::string>(*shown) : "incomplete"));
   return image;
@@ -82,6 +87,19 @@ std::string end_reason(const SessionReport& report, const SessionSettings& sessi
   return session.samples_per_pixel && !session.passes ? "samples" : "passes";
 }
 
+/// The mean of the picture, with the interval that holds the true one with a chance of 95 %.
+JsonObject mean_facts(const Job& job) {
+  const Film& film = job.film();
+  JsonObject facts;
+  if (film.pass_count() == 0 || is_meter(job.scene())) return facts;
+  const ConfidenceInterval interval =
+      FilmErrors(film).known(PixelRegion{0, 0, film.width(), film.height()}).interval();
+  const bool is_irradiance = job.scene().quantity() == Quantity::irradiance;
+  return facts.add("mean", lumens_per_watt_white * interval.mean)
+      .add("mean_half_width", lumens_per_watt_white * interval.half_width)
+      .add("unit", is_irradiance ? "lx" : "cd/m²");
+}
+
 JsonObject result_facts(const JobResult& result, const Job& job) {
   const SessionReport& report = result.report;
   JsonObject facts;
@@ -91,6 +109,7 @@ JsonObject result_facts(const JobResult& result, const Job& job) {
       .add("elapsed_s", report.seconds)
       .add("error", report.picture_error)
       .add("mean_error", report.mean_error)
+      .append(mean_facts(job))
       .add("rays", report.rays);
   return facts;
 }
@@ -173,6 +192,7 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
            },
            {}});
   job.prepare();
+  check_tables(outputs, job.scene());
   if (prepared) prepared();
   // It looks at the job until it is gone itself.
   PictureWatch watch(job, std::move(viewers), [&] { return write_snapshot(job, outputs); });
@@ -197,8 +217,8 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
   Failures failures;
   if (result.checkpoint_failure)
     failures.attempt(checkpoint, [&] { std::rethrow_exception(result.checkpoint_failure); });
-  write_pictures(job.film(), result.record, {job.picture_facts(), display.quiet}, failures,
-                 report.cancelled() ? PictureState::ended_early : PictureState::finished,
+  write_pictures(job.film(), result.record, {job.picture_facts(), display.quiet, &job.scene()},
+                 failures, report.cancelled() ? PictureState::ended_early : PictureState::finished,
                  [&] { return is_first_look ? first_look(job) : job.image(); });
   watch.finish_viewers();
   failures.throw_if_any();

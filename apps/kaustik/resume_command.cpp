@@ -125,6 +125,7 @@ void resume(const ResumeOptions& options) {
   else
     record.outputs.files = options.outputs;
   roles.reads_scene(record.recipe.scene);
+  if (!record.recipe.points.empty()) roles.reads(record.recipe.points);
   check_outputs(record.outputs, roles);
   if (options.scene.empty()) check_scene_is_there(record.recipe, options.checkpoint);
   begin_events(options.progress, roles, "resume", record.recipe.scene);
@@ -179,7 +180,7 @@ void add_resume(CLI::App& program) {
                                "below the checkpoint's folder]")
                   ->take_all()
                   ->allow_extra_args(false),
-              written_extensions());
+              rendered_extensions());
   auto* passes =
       command->add_option("--passes", o->passes, "Number of passes, including finished ones")
           ->check(whole_number(1, 1 << 30));

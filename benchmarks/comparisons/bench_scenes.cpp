@@ -1,8 +1,8 @@
-// Integrators on scenes over time: `bench_scenes` runs each for a minute (20 s on the scenes with
-// references of others) on all cores and appends what came out to a results file, one line of JSON
-// per run. What is there already from the same program, scene (with all files that it names),
-// integrator and reference is not run again.
-// `comparisons_page` makes tables and a page of it.
+// Integrators on scenes over time: `bench_scenes` renders each for 5, 20 and 60 s (5 and 20 s
+// on the scenes with references of others) on all cores and appends what came out to a results
+// file, one line of JSON per run. What is there already from the same program, scene (with all
+// files that it names), integrator and reference is not run again. `comparisons_page` makes tables
+// and a page of it.
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
@@ -11,7 +11,7 @@
 
 #include "benchmarks/comparisons/bench_scene.h"
 #include "benchmarks/comparisons/measurement.h"
-#include "benchmarks/comparisons/snapshots.h"
+#include "benchmarks/comparisons/timed_renders.h"
 #include "kaustik/base/processors.h"
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/integrator/registry.h"
@@ -111,14 +111,15 @@ Image measure(const BenchScene& scene, const Image& reference, Measurement& m) {
   const Description description = describe(scene, m.integrator, reference);
   const auto built = build_scene(description);
   std::vector<std::string> warnings;
-  const auto method = make_integrator(description, *built, warnings);
+  const auto make_method = [&] { return make_integrator(description, *built, warnings); };
   m.load_seconds = seconds_since(start);
   SessionSettings settings;
   settings.seed = m.seed;
   settings.threads = m.threads;
-  const Snapshots taken = render_with_snapshots(*built, *method, settings, m.seconds, reference);
+  const TimedRenders taken = render_for(m.seconds, *built, make_method, settings, reference);
   for (const std::optional<ImageComparison>& picture : taken.pictures)
     m.relmse.push_back(picture ? error_of(*picture) : std::nan(""));
+  m.seconds_taken = taken.seconds_taken;
   m.mean_ratio = taken.pictures.back() ? ratio_of_means(*taken.pictures.back()) : std::nan("");
   m.passes = taken.passes;
   m.samples_per_pass = taken.samples_per_pass;
@@ -175,7 +176,8 @@ class SceneBench {
       say(fmt::format("{}, {}, seed {}: there already", m.scene, m.integrator, m.seed));
       return;
     }
-    say(fmt::format("{}, {}, seed {}: {:g} s", m.scene, m.integrator, m.seed, m.seconds.back()));
+    say(fmt::format("{}, {}, seed {}: {:g} s", m.scene, m.integrator, m.seed,
+                    fmt::join(m.seconds, ", ")));
     try {
       keep(m, measure(scene_, reference_, m));
     } catch (const Error& error) {
@@ -213,8 +215,7 @@ void add_options(CLI::App& app, Options& options) {
                  "Which to measure; with settings: ppm:guiding=false:aim=none")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("--seconds", options.seconds,
-                 "When to look; the last ends the run [5,20,60; of peer_NAME 5,20]")
+  app.add_option("--seconds", options.seconds, "One render for each [5,20,60; of peer_NAME 5,20]")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   app.add_option("--seeds", options.seeds, "One run per seed [1,2; of peer_NAME 1,2,3]")

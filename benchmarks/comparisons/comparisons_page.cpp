@@ -184,8 +184,8 @@ std::string page(const Results& results, const std::vector<PeerResult>& peer_res
       "long runs "
       "of "
       "`auto` itself. Scenes `peer_…` without such a reference have the one that came with them.\n"
-      "- **Time** counts from the start of rendering. A picture counts from the end of its last "
-      "pass, during\n  the first pass from its samples. Over several seeds the error is the "
+      "- **Time** counts from the start of rendering. Each time is a render of its own that ends "
+      "then, as\n  `kaustik render --time` does. Over several seeds the error is the "
       "mean.\n\n{}\n\n",
       circumstances(results));
   text +=

@@ -32,6 +32,7 @@ Measurement measurement_of(const nlohmann::json& line) {
   m.seconds = numbers_of(line.at("seconds"));
   m.relmse = numbers_of(line.at("relmse"));
   m.relmse.resize(m.seconds.size(), not_a_number);
+  m.seconds_taken = numbers_of(line.at("seconds_taken"));
   m.mean_ratio = number_of(line.at("mean_ratio"));
   m.threads = line.at("threads");
   m.passes = line.at("passes");
@@ -60,6 +61,7 @@ std::string Measurement::to_json_line() const {
                                     {"seed", seed},
                                     {"seconds", seconds},
                                     {"relmse", relmse},
+                                    {"seconds_taken", seconds_taken},
                                     {"mean_ratio", mean_ratio},
                                     {"threads", threads},
                                     {"passes", passes},

@@ -12,14 +12,14 @@ inline std::string type_of(const std::string& integrator) {
   return integrator.substr(0, integrator.find(setting_separator));
 }
 
-/// What one run of an integrator on a scene came to: one line of a results file.
+/// What the renders of an integrator on a scene came to: one line of a results file.
 struct Measurement {
   std::string scene, integrator;
   uint64_t seed = 0;
-  std::vector<double> seconds;  ///< when the picture was looked at, without loading the scene
-  /// Error (error_of in quality.h) of the picture after the last pass that had ended by then; NaN
-  /// (null in the file): none had.
+  std::vector<double> seconds;  ///< one render for each; loading the scene is not in it
+  /// Error (error_of in quality.h) of the picture of each; NaN (null in the file): there is none.
   std::vector<double> relmse;
+  std::vector<double> seconds_taken;  ///< when each was over
   double mean_ratio = 0;  ///< of the last picture's mean to the reference's; NaN: no picture
   int threads = 0;
   uint32_t passes = 0, samples_per_pass = 0;
@@ -33,7 +33,7 @@ struct Measurement {
   std::string program;  ///< checksum of the program that measured
   std::string inputs;   ///< digests of the scene and the integrator, checksum of the reference
 
-  /// The error at one of `seconds`; nothing if it was not looked at then.
+  /// The error at one of `seconds`; nothing if there was no render for it.
   std::optional<double> relmse_at(double time) const;
   std::string to_json_line() const;
 };

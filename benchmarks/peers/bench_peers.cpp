@@ -8,7 +8,7 @@
 
 #include "benchmarks/comparisons/measurement.h"
 #include "benchmarks/comparisons/peer_result.h"
-#include "benchmarks/comparisons/snapshots.h"
+#include "benchmarks/comparisons/timed_renders.h"
 #include "benchmarks/peers/cycles.h"
 #include "benchmarks/peers/plain_room.h"
 #include "benchmarks/peers/povray.h"
@@ -66,8 +66,7 @@ class PeerComparison {
     override_integrator(description_, options.integrator);
     const auto start = std::chrono::steady_clock::now();
     scene_ = build_scene(description_);
-    std::vector<std::string> warnings;
-    integrator_ = make_integrator(description_, *scene_, warnings);
+    (void)our_integrator();
     load_seconds_ = seconds_since(start);
   }
 
@@ -91,15 +90,20 @@ class PeerComparison {
   }
 
  private:
+  std::unique_ptr<Integrator> our_integrator() const {
+    std::vector<std::string> warnings;
+    return make_integrator(description_, *scene_, warnings);
+  }
+
   /// Renders as long as the peer has, and tells how both stand; no bar yet.
   PeerResult compare(const std::string& peer, const PeerPicture& theirs) const {
     SessionSettings settings;
     settings.seed = options_.seed;
     settings.threads = options_.threads;
-    const Snapshots ours =
-        render_with_snapshots(*scene_, *integrator_, settings, {theirs.seconds}, reference_);
+    const TimedRenders ours = render_for(
+        {theirs.seconds}, *scene_, [&] { return our_integrator(); }, settings, reference_);
     if (!ours.pictures.back())
-      throw Error(ErrorKind::system, "no pass has ended in time", "ask for more seconds");
+      throw Error(ErrorKind::system, "there was no picture in time", "ask for more seconds");
     const ImageComparison& our_picture = *ours.pictures.back();
     const ImageComparison their_picture = compare_images(theirs.image, reference_);
     PeerResult result;
@@ -126,7 +130,6 @@ class PeerComparison {
   const Image& reference_;
   Description description_;
   std::shared_ptr<const Scene> scene_;
-  std::unique_ptr<Integrator> integrator_;
   double load_seconds_ = 0;
 };
 

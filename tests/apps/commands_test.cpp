@@ -179,6 +179,10 @@ TEST_F(Commands, InfoWarnsOfWhatCannotWork) {
           "<lookat origin=\"0,0,5\" target=\"0,0,9\" up=\"0,1,0\"/></transform></sensor>",
           false},
          "the camera sees no shape");
+  warned({"<shape type=\"sphere\"><emitter type=\"area\"><boolean name=\"visible\" "
+          "value=\"false\"/></emitter></shape>",
+          true, false},
+         "the scene has no shape");
   // Fog alone can be seen, though no surface is met.
   write("fog.xml", scene_with({"<shape type=\"cube\"><bsdf type=\"null\"/><medium "
                                "name=\"interior\" type=\"homogeneous\"/></shape>",

@@ -1,6 +1,7 @@
 // What `kaustik render` tells of meters: lux and cd/m², with intervals.
 
 #include <cstdlib>
+#include <sstream>
 
 #include "tests/apps/program.h"
 
@@ -82,6 +83,66 @@ TEST_F(MeterValues, PicturesHaveNone) {
   EXPECT_FALSE(contains(result.err, "luminance: ")) << result.err;
   EXPECT_TRUE(contains(result.err, "mean of the picture")) << result.err;
   EXPECT_FALSE(contains(contents("events.jsonl"), "measured"));
+}
+
+/// Up, and to the side, where half of what is below the horizon is missing: all of the sky shines.
+TEST_F(MeterValues, OfAFileOfPointsAreATable) {
+  write("points.txt", "# x y z  nx ny nz\n0 0 1  0 0 1\n2.5 0 1  1 0 0\n");
+  write_scene(
+      "<sensor type=\"irradiancepoints\"><string name=\"filename\" "
+      "value=\"points.txt\"/></sensor>");
+  const RunResult result = run_well({"render", "scene.xml", "--passes", "16", "--spp", "4096",
+                                     "--progress-file", "events.jsonl", "-o", "lux.csv"});
+  EXPECT_TRUE(contains(result.err, "wrote lux.csv")) << result.err;
+  EXPECT_TRUE(contains(contents("events.jsonl"), R"({"event":"written","file":"lux.csv")"));
+  std::istringstream table(contents("lux.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "x,y,z,value,half_width,unit");
+  for (const std::string start : {"0,0,1,", "2.5,0,1,"}) {
+    std::getline(table, line);
+    ASSERT_TRUE(line.starts_with(start)) << line;
+    EXPECT_TRUE(line.ends_with(",lx")) << line;
+    expect_illuminance(number_behind(line, start));
+  }
+  EXPECT_FALSE(std::getline(table, line));
+}
+
+/// Whatever cameras the scene has. Who goes on from a checkpoint measures the same.
+TEST_F(MeterValues, PointsAreGivenToAnyScene) {
+  write("points.txt", "x y z nx ny nz\n0 0 1  0 0 1\n0 0 2  0 0 -1\n");
+  write_scene("<sensor type=\"perspective\">" + film + "</sensor>");
+  run_well({"render", "scene.xml", "--points", "points.txt", "--passes", "2", "--spp", "4096",
+            "--checkpoint", "a.kpt"});
+  const std::string table = contents("scene.csv");
+  expect_illuminance(number_behind(table, "\n0,0,1,"));
+  expect_illuminance(number_behind(table, "\n0,0,2,"));
+  run_well({"resume", "a.kpt", "-o", "again.csv"});
+  EXPECT_EQ(contents("again.csv"), table);
+  write("points.txt", "0 0 1\n");
+  const RunResult wrong = run({"render", "scene.xml", "--points", "points.txt", "--passes", "2"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(contains(wrong.err, "points.txt:1: there are 3 numbers")) << wrong.err;
+}
+
+TEST_F(MeterValues, TablesAreOfMetersAlone) {
+  write_scene("<sensor type=\"perspective\">" + film + "</sensor>");
+  const RunResult result = run({"render", "scene.xml", "--passes", "1", "-o", "lux.csv"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "'lux.csv' is a table of what a meter shows")) << result.err;
+  EXPECT_TRUE(contains(result.err, "--camera ID")) << result.err;
+  EXPECT_FALSE(exists("lux.csv"));
+}
+
+// A checkpoint has no scene with it.
+TEST_F(MeterValues, TablesNeedTheScene) {
+  write_scene(point);
+  run_well({"render", "scene.xml", "--passes", "2", "--checkpoint", "a.kpt", "-o", "a.exr"});
+  const RunResult merged = run({"merge", "a.kpt", "-o", "lux.csv"});
+  EXPECT_EQ(merged.exit_code, 2);
+  EXPECT_TRUE(contains(merged.err, "kaustik resume FILE.kpt -o lux.csv")) << merged.err;
+  run_well({"resume", "a.kpt", "-o", "lux.csv"});
+  EXPECT_TRUE(contains(contents("lux.csv"), "\n1,2,3,"));
 }
 
 // The size of a film that the scene lacks has no effect: points tell their own.

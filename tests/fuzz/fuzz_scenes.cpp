@@ -31,7 +31,7 @@ constexpr uint64_t enough_for_share = 30;
 constexpr double least_share = 0.4;
 
 struct Options {
-  uint64_t first = 1, scenes = 100, jobs = uint64_t(usable_processors());
+  uint64_t first = 1, scenes = 100, jobs = uint64_t(kaustik::usable_processors());
   bool only_print = false, tells_refusals = false;
 };
 

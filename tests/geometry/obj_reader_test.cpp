@@ -154,6 +154,13 @@ TEST(ObjReader, TellsWhatItLeavesOutOnce) {
   EXPECT_NE(small[0].find("3 faces were left out"), std::string::npos) << small[0];
   EXPECT_NE(reading_error([&] { obj("v 0 0 0\nv 1 0 0\nf 1 2\n"); }).find("no faces"),
             std::string::npos);
+  // Round all vertices some times: no polygon.
+  std::string round = "f";
+  for (int i = 0; i < 20; ++i) round += " 1 2 3";
+  const auto uncut = remarks(round + "\n" + round + "\n");
+  ASSERT_EQ(uncut.size(), 1u);
+  EXPECT_NE(uncut[0].find(":5: 2 faces were left out: to cut so many"), std::string::npos)
+      << uncut[0];
 }
 
 /// A file of some pieces, with all that its reader has to keep in order, and the mesh that it is.

@@ -406,5 +406,30 @@ TEST(SignedDistanceField, HitsLieInItsBoxesAndNearItsTessellation) {
   }
 }
 
+/// They are found by a part of the triangles, and hold all of them.
+TEST(MeshBoxes, OfManyTrianglesAreTight) {
+  constexpr int side = 200;
+  TriangleMesh mesh;
+  for (int y = 0; y <= side; ++y)
+    for (int x = 0; x <= side; ++x) mesh.positions.emplace_back(float(x), float(y), 0.0f);
+  // In an order that says nothing of the place.
+  for (int i = 0; i < side * side; ++i) {
+    const int cell = int(uint32_t(i) * 7919u % uint32_t(side * side));
+    const auto a = uint32_t(cell / side * (side + 1) + cell % side), b = a + 1, c = a + side + 1;
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({b, c + 1, c});
+  }
+  const std::vector<Bounds3f> boxes = triangle_boxes(mesh, 64);
+  EXPECT_LE(boxes.size(), 64u);
+  EXPECT_GE(boxes.size(), 50u);
+  double area = 0;
+  for (const Bounds3f& box : boxes)
+    area += double(box.max.x - box.min.x) * double(box.max.y - box.min.y);
+  EXPECT_LT(area, 1.2 * side * side);  // neighbours share a row of cells
+  for (const Vec3f& p : mesh.positions)
+    EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(),
+                            [&](const Bounds3f& box) { return box.intersects(p); }));
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -189,6 +189,9 @@ TEST(ForeignIntegrators, OfDialectsTheDefaultStandsForThem) {
   EXPECT_EQ(stand_in.properties.size(), 2u);  // what nobody knows of them is told where it is made
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("nobody knows integrator 'restirgi'"), std::string::npos);
+  // A known name with a word more is no slip of the pen.
+  EXPECT_EQ(native_integrator(described("ptracer_c", ""), notes, false).type, default_integrator);
+  EXPECT_EQ(native_integrator(described("photon_map", ""), notes, false).type, "photon_map");
   // The one in it, by its own name here.
   const Object holder = described("guidedsdtree", "<integrator type=\"volpath\"/>");
   EXPECT_EQ(native_integrator(holder, notes, false).type, "path");

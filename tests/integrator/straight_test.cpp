@@ -148,6 +148,35 @@ TEST(Straight, LampsMayHaveHoles) {
   expect_mean("both", render(scene, "path", "", {800, 3}).mean({"emission"}), 3 + 0.75 * 4);
 }
 
+/// Radiance's illum: it shines, and nobody sees it.
+TEST(Straight, LampsOfNullAreNotThereForOtherLight) {
+  const std::string lamp = point_light("0, 0, 2", 10);
+  const auto weak = [&](double radiance) {
+    return lamp_above(fmt::format(R"(<bsdf type="null"/><emitter type="area">
+        <boolean name="visible" value="false"/>
+        <rgb name="radiance" value="{}"/></emitter>)",
+                                  radiance),
+                      lamp);
+  };
+  const TestScene open(lamp_above("", lamp)), dark(weak(1e-6));
+  for (const char* integrator : {"path", "bdpt", "auto", "photonmap"})
+    expect_near_means(
+        integrator, render(dark, integrator, set("components", "direct"), {64, 1}).mean({"direct"}),
+        render(open, integrator, set("components", "direct"), {4, 1}).mean({"direct"}), 0.01);
+}
+
+TEST(Straight, LampsOfNullShineAndShowWhatIsBehind) {
+  const TestScene scene(
+      camera("0, 0, 4", "0, 0, 0", 4, 8, "0, 1, 0") +
+      flat(
+          "rectangle", scale("9, 9, 1") + translate("0, 0, 2"),
+          R"(<bsdf type="null"/><emitter type="area"><rgb name="radiance" value="3"/></emitter>)") +
+      flat("rectangle", scale("9, 9, 1"),
+           diffuse("0") + R"(<emitter type="area"><rgb name="radiance" value="4"/></emitter>)"));
+  for (const char* integrator : {"path", "auto", "bdpt", "photonmap"})
+    expect_mean(integrator, render(scene, integrator, "", {800, 3}).mean({"emission"}), 3 + 4);
+}
+
 TEST(Straight, ShadowPhotonsAreRefused) {
   const TestScene scene(greenhouse());
   EXPECT_THROW(render(scene, "photonmap", set("shadow_photons", 1000), {1, 1}), Error);

@@ -172,9 +172,10 @@ TEST(GltfExtensions, ThoseThatAreRequiredAndUnknownAreErrors) {
   EXPECT_FALSE(problems[0].remedy.empty());
 }
 
-TEST(GltfExtensions, MeshesThatDracoPackedAreBoxes) {
+TEST(GltfExtensions, MeshesWhosePackedDataAreMissingAreBoxes) {
   const Description description = parse_gltf_text(
       R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"],
+      "buffers":[{"byteLength":8,"uri":"no.bin"}],"bufferViews":[{"buffer":0,"byteLength":8}],
       "accessors":[{"componentType":5126,"count":100,"type":"VEC3","min":[0,0,0],"max":[2,4,6]},
       {"componentType":5125,"count":300,"type":"SCALAR"}],"nodes":[{"mesh":0,"translation":[1,0,0]}],
       "meshes":[{"name":"vase","primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":
@@ -182,8 +183,8 @@ TEST(GltfExtensions, MeshesThatDracoPackedAreBoxes) {
   const Object& box = shape_in(description);
   EXPECT_EQ(box.type, "cube");
   EXPECT_EQ(value<Transform>(box, "to_world").point(Vec3f(1, 1, 1)), Vec3f(3, 4, 6));
-  EXPECT_TRUE(has_deviation(description, DeviationKind::missing,
-                            "mesh 'vase': it is packed by KHR_draco_mesh_compression"));
+  EXPECT_TRUE(
+      has_deviation(description, DeviationKind::missing, "mesh 'vase': there is no file 'no.bin'"));
 }
 
 TEST(GltfExtensions, StrictReadingRefusesDeviations) {

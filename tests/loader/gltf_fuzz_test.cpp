@@ -1,7 +1,6 @@
 // Damaged files: whatever the bytes, the reader returns a description or throws kaustik::Error.
 
-#include <random>
-
+#include "tests/loader/damage.h"
 #include "tests/loader/gltf_support.h"
 
 namespace kaustik::test {
@@ -57,11 +56,7 @@ bool survives(const std::string& text) {
   return false;
 }
 
-#ifdef KAUSTIK_SLOW_BUILD
-constexpr int rounds = 300;
-#else
-constexpr int rounds = 3000;
-#endif
+const int rounds = damage_rounds(3000, 300);
 
 TEST(GltfFuzz, TheWholeSceneIsSound) {
   EXPECT_TRUE(survives(buffer().as_json(rest())));
@@ -69,15 +64,8 @@ TEST(GltfFuzz, TheWholeSceneIsSound) {
 }
 
 TEST(GltfFuzz, FlippedBytes) {
-  std::mt19937 random(1);
   for (const std::string& sound : {buffer().as_json(rest()), buffer().as_glb(rest())}) {
-    int refused = 0;
-    for (int round = 0; round < rounds; ++round) {
-      std::string text = sound;
-      for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
-        text[random() % text.size()] ^= char(1 + random() % 255);
-      if (!survives(text)) ++refused;
-    }
+    const int refused = count_refused(sound, 1, rounds, 4, flip_byte, survives);
     EXPECT_GT(refused, rounds / 4);
     EXPECT_LT(refused, rounds);
   }
@@ -85,38 +73,23 @@ TEST(GltfFuzz, FlippedBytes) {
 
 /// Such changes keep the JSON sound, and what it says is odd.
 TEST(GltfFuzz, OtherNumbersAndWords) {
-  std::mt19937 random(2);
-  const std::string sound = buffer().as_json(rest());
   const std::vector<std::string> others = {"-1",   "1e300", "0",      "99999999999", "null",
                                            "true", "\"\"",  "[]",     "{}",          "0.5",
                                            "[0]",  "5",     "[1,2,3]"};
   const std::string digits = "0123456789";
-  int read = 0;
-  for (int round = 0; round < rounds; ++round) {
-    std::string text = sound;
-    for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
-      size_t at = random() % text.size();
-      at = text.find_first_of(digits, at);
-      if (at == text.npos || text[at - 1] == '_' || text[at - 1] == 'C') continue;
-      const size_t end = text.find_first_not_of(digits + ".", at);
-      text.replace(at, end - at, others[random() % others.size()]);
-    }
-    if (survives(text)) ++read;
-  }
-  EXPECT_GT(read, rounds / 20);
+  const auto change = [&](std::string& text, std::mt19937& random) {
+    const size_t at = text.find_first_of(digits, random() % text.size());
+    if (at == text.npos || text[at - 1] == '_' || text[at - 1] == 'C') return;
+    const size_t end = text.find_first_not_of(digits + ".", at);
+    text.replace(at, end - at, others[random() % others.size()]);
+  };
+  const int refused = count_refused(buffer().as_json(rest()), 2, rounds, 3, change, survives);
+  EXPECT_LT(refused, rounds - rounds / 20);
 }
 
 TEST(GltfFuzz, ExchangedPieces) {
-  std::mt19937 random(3);
   const std::string sound = buffer().as_json(rest());
-  for (int round = 0; round < rounds; ++round) {
-    std::string text = sound;
-    for (unsigned pieces = 1 + random() % 3; pieces > 0; --pieces) {
-      const std::string piece = sound.substr(random() % sound.size(), 1 + random() % 60);
-      text.replace(random() % text.size(), random() % 60, piece);
-    }
-    survives(text);
-  }
+  count_refused(sound, 3, rounds, 3, exchanged_piece(sound), survives);
 }
 
 }  // namespace

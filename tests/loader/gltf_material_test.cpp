@@ -136,9 +136,9 @@ TEST(GltfMaterials, FaintEmissionGoesWithTheStudio) {
   const GltfMaterial material(R"("emissiveFactor":[1,1,1])");
   const Object& emitter = only_in(material.shape(), "emitter");
   EXPECT_EQ(value<Rgb>(emitter, "radiance"), (Rgb{1 / 179.0, 1 / 179.0, 1 / 179.0}));
-  EXPECT_EQ(value<double>(emitter, "scale"), 100);
+  EXPECT_EQ(value<double>(emitter, "scale"), 160);
   EXPECT_EQ(only_in(*material.description().scene, "emitter").type, "constant");
-  EXPECT_TRUE(has_deviation(material.description(), DeviationKind::approximated, "100 times"));
+  EXPECT_TRUE(has_deviation(material.description(), DeviationKind::approximated, "160 times"));
 }
 
 const std::string transmission = R"("KHR_materials_transmission":{"transmissionFactor":1})";

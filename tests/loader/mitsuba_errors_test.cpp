@@ -362,7 +362,12 @@ TEST(MitsubaErrors, NamedFiles) {
   expect("<spectrum name='x' filename='empty.spd'/>", "empty.spd", "spectrum is empty");
   expect("<include filename='no.xml'/>", "scene.xml:2:20", "No such file");
   expect("<include filenam='no.xml'/>", "scene.xml:2:10", "no attribute 'filenam'");
-  expect("<path value='no'/>", "scene.xml:2:14", "there is no folder");
+  const std::string path = folder.write("scene.xml", in_scene("<path value='no'/>"));
+  EXPECT_NE(load_mitsuba_xml(path).warnings.at(0).find("there is no folder"), std::string::npos);
+  LoadOptions strict;
+  strict.is_strict = true;
+  expect_problem(problems_of([&] { load_mitsuba_xml(path, strict); }), path + ":2:14",
+                 "there is no folder", "");
 }
 
 TEST(MitsubaErrors, Includes) {

@@ -1,7 +1,6 @@
 // Damaged scenes: whatever the bytes, the loader returns a description or throws kaustik::Error.
 
-#include <random>
-
+#include "tests/loader/damage.h"
 #include "tests/loader/loader_support.h"
 
 namespace kaustik {
@@ -57,48 +56,20 @@ TEST(MitsubaFuzz, TruncatedAtEveryByte) {
   EXPECT_TRUE(survives(whole.substr(0, end)));
 }
 
-#ifdef KAUSTIK_SLOW_BUILD
-constexpr int rounds = 2000;
-#else
-constexpr int rounds = 20000;
-#endif
+const int rounds = damage_rounds(20000, 2000);
 
 TEST(MitsubaFuzz, FlippedBytes) {
-  std::mt19937 random(1);
-  int refused = 0;
-  for (int round = 0; round < rounds; ++round) {
-    std::string text = whole;
-    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
-      text[random() % text.size()] ^= char(1 + random() % 255);
-    if (!survives(text)) ++refused;
-  }
+  const int refused = count_refused(whole, 1, rounds, 4, flip_byte, survives);
   EXPECT_GT(refused, rounds / 2);
   EXPECT_LT(refused, rounds);  // comments and white space may change
 }
 
 TEST(MitsubaFuzz, ExchangedPieces) {
-  // Copies of one piece over another keep more of the XML sound than single bytes do.
-  std::mt19937 random(2);
-  for (int round = 0; round < rounds; ++round) {
-    std::string text = whole;
-    for (unsigned pieces = 1 + random() % 3; pieces > 0; --pieces) {
-      const size_t length = 1 + random() % 60;
-      const std::string piece = whole.substr(random() % whole.size(), length);
-      text.replace(random() % text.size(), random() % 60, piece);
-    }
-    survives(text);
-  }
+  count_refused(whole, 2, rounds, 3, exchanged_piece(whole), survives);
 }
 
 TEST(MitsubaFuzz, OddLetters) {
-  std::mt19937 random(3);
-  const std::string letters = "<>\"'/=&;$\\!-[]?#:,. 0e+xX\n";
-  for (int round = 0; round < rounds; ++round) {
-    std::string text = whole;
-    for (unsigned n = 1 + random() % 3; n > 0; --n)
-      text[random() % text.size()] = letters[random() % letters.size()];
-    survives(text);
-  }
+  count_refused(whole, 3, rounds, 3, odd_letter("<>\"'/=&;$\\!-[]?#:,. 0e+xX\n"), survives);
 }
 
 }  // namespace

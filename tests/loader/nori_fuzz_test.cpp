@@ -1,8 +1,7 @@
 // Damaged files of Nori: whatever the bytes, the reader returns a description or throws
 // kaustik::Error.
 
-#include <random>
-
+#include "tests/loader/damage.h"
 #include "tests/loader/nori_support.h"
 
 namespace kaustik::nori {
@@ -49,11 +48,7 @@ bool survives_nori(const std::string& text, const TemporaryFolder* folder = null
   return false;
 }
 
-#ifdef KAUSTIK_SLOW_BUILD
-constexpr int nori_rounds = 500;
-#else
-constexpr int nori_rounds = 3000;
-#endif
+const int nori_rounds = damage_rounds(3000, 500);
 
 TEST(NoriFuzz, TheWholeFilesAreSound) {
   const TemporaryFolder folder;
@@ -70,34 +65,22 @@ TEST(NoriFuzz, TruncatedAtEveryByte) {
 }
 
 TEST(NoriFuzz, FlippedBytes) {
-  std::mt19937 random(1);
-  int refused = 0;
-  for (int round = 0; round < nori_rounds; ++round) {
-    std::string text = whole_nori;
-    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
-      text[random() % text.size()] ^= char(1 + random() % 255);
-    if (!survives_nori(text)) ++refused;
-  }
+  const int refused = count_refused(whole_nori, 1, nori_rounds, 4, flip_byte,
+                                    [](const std::string& text) { return survives_nori(text); });
   EXPECT_GT(refused, nori_rounds / 10);
   EXPECT_LT(refused, nori_rounds);
 }
 
 TEST(NoriFuzz, ExchangedPiecesAndNumbers) {
+  const Change words = exchanged_word({"0", "-1", "1e30", "1e-30", "nan", "99999999999", "type",
+                                       "<", "/>", "\"", "integer", "string"});
   const TemporaryFolder folder;
-  std::mt19937 random(2);
-  const std::string pieces[] = {"0",    "-1", "1e30", "1e-30", "nan",     "99999999999",
-                                "type", "<",  "/>",   "\"",    "integer", "string"};
-  for (int round = 0; round < nori_rounds; ++round) {
-    const bool is_test = round % 10 == 0;
-    std::string text = is_test ? whole_nori_test : whole_nori;
-    for (unsigned count = 1 + random() % 3; count > 0; --count) {
-      const std::string piece = random() % 2
-                                    ? text.substr(random() % text.size(), 1 + random() % 60)
-                                    : pieces[random() % std::size(pieces)];
-      text.replace(random() % text.size(), random() % 8, piece);
-    }
-    survives_nori(text, is_test ? &folder : nullptr);
-  }
+  count_refused(whole_nori, 2, nori_rounds * 9 / 10, 3,
+                either(exchanged_piece(whole_nori, 7), words),
+                [](const std::string& text) { return survives_nori(text); });
+  count_refused(whole_nori_test, 3, nori_rounds / 10, 3,
+                either(exchanged_piece(whole_nori_test, 7), words),
+                [&](const std::string& text) { return survives_nori(text, &folder); });
 }
 
 }  // namespace

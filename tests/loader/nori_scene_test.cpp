@@ -68,7 +68,6 @@ TEST(NoriMeshes, HaveTheNormalsOfTheirFileOrFlatFaces) {
   };
   EXPECT_TRUE(face_normals("flat.obj"));
   EXPECT_FALSE(face_normals("smooth.obj"));
-  EXPECT_FALSE(face_normals("none.obj"));
 }
 
 TEST(NoriMeshes, WithoutABsdfAreGrey) {
@@ -151,10 +150,14 @@ TEST(NoriLights, SpotsHaveTheirPower) {
 }
 
 TEST(NoriLights, SurroundingsOfAMeshTakeItsPlace) {
-  const Description scene = parse_in_nori(
-      "<mesh type=\"sphere\"><float name=\"radius\" value=\"10000\"/>"
-      "<emitter type=\"environment\"><string name=\"filename\" value=\"sky.exr\"/>"
-      "<float name=\"strength\" value=\".5\"/></emitter></mesh>");
+  const TemporaryFolder folder;
+  folder.write("sky.exr", "");
+  const Description scene = parse_nori_text(
+      "<scene>" + nori_camera +
+          "<mesh type=\"sphere\"><float name=\"radius\" value=\"10000\"/>"
+          "<emitter type=\"environment\"><string name=\"filename\" value=\"sky.exr\"/>"
+          "<float name=\"strength\" value=\".5\"/></emitter></mesh></scene>",
+      folder / "");
   EXPECT_TRUE(objects_of(scene, "shape").empty());
   EXPECT_EQ(only(scene, "emitter").type, "envmap");
   EXPECT_EQ(number_in(only(scene, "emitter"), "scale"), 0.5);
@@ -219,6 +222,22 @@ TEST(NoriErrors, HaveAPlaceAndARemedy) {
   for (int i = 0; i < 2000; ++i) deep += "<bsdf type=\"x\">";
   for (int i = 0; i < 2000; ++i) deep += "</bsdf>";
   EXPECT_NE(problems(deep + "</scene>")[0].message.find("nest more than"), std::string::npos);
+}
+
+/// The picture is made of what is there.
+TEST(NoriMissing, FilesLeaveStandIns) {
+  const std::string inside =
+      "<mesh type=\"obj\"><string name=\"filename\" value=\"no.obj\"/></mesh>"
+      "<mesh type=\"sphere\"><bsdf type=\"diffuse\"><texture type=\"image\" name=\"albedo\">"
+      "<string name=\"filename\" value=\"no.png\"/></texture></bsdf></mesh>"
+      "<emitter type=\"envmap\"><string name=\"filename\" value=\"no.exr\"/></emitter>";
+  const Description scene = parse_in_nori(inside);
+  EXPECT_EQ(only(scene, "shape").type, "sphere");
+  EXPECT_EQ(only(only(only(scene, "shape"), "bsdf"), "texture").type, "checkerboard");
+  EXPECT_TRUE(is_missing(scene, "file 'no.obj'", "the mesh is left out"));
+  EXPECT_TRUE(is_missing(scene, "file 'no.png'", "a magenta checker stands for it"));
+  EXPECT_TRUE(is_missing(scene, "file 'no.exr'", "it gives no light"));
+  EXPECT_THROW(parse_nori_text("<scene>" + nori_camera + inside + "</scene>", "", true), Error);
 }
 
 TEST(NoriErrors, StrictReadingRefusesDeviations) {

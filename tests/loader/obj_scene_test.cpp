@@ -87,7 +87,7 @@ TEST_F(ObjScenes, MapsAreTextures) {
 }
 
 TEST_F(ObjScenes, WhatIsWrongIsTold) {
-  EXPECT_TRUE(has_deviation(load(""), DeviationKind::missing, "file of materials"));
+  EXPECT_TRUE(has_deviation(load(""), DeviationKind::missing, "file of materials 'scene.mtl'"));
   EXPECT_TRUE(has_deviation(load("newmtl wall\nKd red\n"), DeviationKind::ignored,
                             "does not hold the numbers"));
   const std::string path = folder_.write("empty.obj", "v 0 0 0\n");
@@ -97,6 +97,14 @@ TEST_F(ObjScenes, WhatIsWrongIsTold) {
   const std::string scene_path = folder_.write("scene.obj", two_parts);
   EXPECT_NE(problems_of([&] { load_scene(scene_path, options); })[0].message.find("'a'"),
             std::string::npos);
+}
+
+TEST_F(ObjScenes, LinesAndPointsAreLeftOut) {
+  const std::string path =
+      folder_.write("l.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\np 1\n");
+  const Description description = load_scene(path);
+  EXPECT_TRUE(has_deviation(description, DeviationKind::ignored, "lines and points"));
+  EXPECT_FALSE(has_deviation(load(""), DeviationKind::ignored, "lines and points"));
 }
 
 TEST(ObjScene, IsRecognisedByItsLines) {

@@ -28,6 +28,11 @@ TEST(PbrtDirectives, TransformsComeAfterOneAnother) {
   expect_same(placed_by("Translate 1 1 1 Identity"), Transform());
 }
 
+TEST(PbrtDirectives, RotateAboutNoAxisTurnsNothing) {
+  expect_same(placed_by("Translate 1 2 3 Rotate 15 0 0 0"), Transform::translate({1, 2, 3}));
+  EXPECT_TRUE(is_ignored(parse_scene_of_pbrt("Rotate 15 0 0 0"), "Rotate", "axis is zero"));
+}
+
 TEST(PbrtDirectives, LookAtTakesTheWorldToTheCamera) {
   // From (0, 0, 5) toward the origin: x of the world is on the left there.
   const Transform t = placed_by("LookAt 0 0 5 0 0 0 0 1 0");

@@ -1,8 +1,7 @@
 // Damaged scenes of pbrt: whatever the bytes, the reader returns a description or throws
 // kaustik::Error.
 
-#include <random>
-
+#include "tests/loader/damage.h"
 #include "tests/loader/pbrt_support.h"
 
 namespace kaustik::pbrt {
@@ -35,6 +34,8 @@ ObjectBegin "o" Shape "disk" "float innerradius" .2 Shape "cylinder" "float phim
 ObjectInstance "o"
 ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1]
 AreaLightSource "diffuse" "blackbody L" 3000 "float power" 5
+Texture "p" "spectrum" "checkerboard" "string mapping" "spherical"
+Material "diffuse" "texture reflectance" "p"
 Shape "trianglemesh" "integer indices" [0 1 2] "point3 P" [0 0 0 1 0 0 0 1 0] "point2 uv" [0 0 1 0 1 1]
 Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 1]
 Shape "curve" "point3 P" [0 0 0 1 0 0 2 0 0 3 0 1] "float width0" .1
@@ -65,60 +66,40 @@ TEST(PbrtFuzz, TruncatedAtEveryByte) {
   for (size_t size = 0; size < whole_pbrt.size(); ++size) survives_pbrt(whole_pbrt.substr(0, size));
 }
 
-#ifdef KAUSTIK_SLOW_BUILD
-constexpr int pbrt_rounds = 500;
-#else
-constexpr int pbrt_rounds = 3000;
-#endif
+const int pbrt_rounds = damage_rounds(3000, 500);
 
 TEST(PbrtFuzz, FlippedBytes) {
-  std::mt19937 random(1);
-  int refused = 0;
-  for (int round = 0; round < pbrt_rounds; ++round) {
-    std::string text = whole_pbrt;
-    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
-      text[random() % text.size()] ^= char(1 + random() % 255);
-    if (!survives_pbrt(text)) ++refused;
-  }
+  const int refused = count_refused(whole_pbrt, 1, pbrt_rounds, 4, flip_byte, survives_pbrt);
   EXPECT_GT(refused, pbrt_rounds / 10);
   EXPECT_LT(refused, pbrt_rounds);
 }
 
 TEST(PbrtFuzz, ExchangedPiecesAndNumbers) {
-  std::mt19937 random(2);
-  const std::string numbers[] = {"0",           "-1", "1e30", "1e-30", "nan",
-                                 "99999999999", ".5", "\"\"", "["};
-  for (int round = 0; round < pbrt_rounds; ++round) {
-    std::string text = whole_pbrt;
-    for (unsigned pieces = 1 + random() % 3; pieces > 0; --pieces) {
-      const std::string piece =
-          random() % 2 ? whole_pbrt.substr(random() % whole_pbrt.size(), 1 + random() % 60)
-                       : numbers[random() % std::size(numbers)];
-      text.replace(random() % text.size(), random() % 8, piece);
-    }
-    survives_pbrt(text);
-  }
+  const Change numbers =
+      exchanged_word({"0", "-1", "1e30", "1e-30", "nan", "99999999999", ".5", "\"\"", "["});
+  count_refused(whole_pbrt, 2, pbrt_rounds, 3, either(exchanged_piece(whole_pbrt, 7), numbers),
+                survives_pbrt);
 }
 
 TEST(PbrtFuzz, OtherNumbersEverywhere) {
-  std::mt19937 random(3);
   const std::string others[] = {"0", "-1", "1e30", "-1e-30", "99999999999", "181", "7"};
-  for (int round = 0; round < pbrt_rounds; ++round) {
-    std::string text;
+  const auto change = [&](std::string& text, std::mt19937& random) {
+    std::string changed;
     bool in_number = false;
-    for (const char c : whole_pbrt) {
+    for (const char c : text) {
       const bool is_digit = (c >= '0' && c <= '9') || c == '.';
       if (is_digit && !in_number && random() % 40 == 0) {
-        text += others[random() % std::size(others)] + " ";
+        changed += others[random() % std::size(others)] + " ";
         in_number = true;
         continue;
       }
       if (in_number && is_digit) continue;
       in_number = false;
-      text += c;
+      changed += c;
     }
-    survives_pbrt(text);
-  }
+    text = changed;
+  };
+  count_refused(whole_pbrt, 3, pbrt_rounds, 1, change, survives_pbrt);
 }
 
 }  // namespace

@@ -391,10 +391,6 @@ TEST_F(PbrtTextures, TheOthersAreTold) {
   }
   EXPECT_TRUE(is_missing(painted("Texture \"t\" \"spectrum\" \"ptex\" \"string filename\" \"x\""),
                          "'t'", "Ptex"));
-  EXPECT_TRUE(is_approximated(
-      painted("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"string "
-              "mapping\" \"planar\" \"vector3 v1\" [1 0 0] \"vector3 v2\" [0 1 0]"),
-      "'t'", "mapping 'planar'"));
   EXPECT_THROW(painted("Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"t\""), Error);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kaustik/loader/pbrt/shape_areas.h"
 #include "kaustik/loader/pbrt/shapes.h"
 #include "tests/loader/pbrt_support.h"
 

@@ -1,10 +1,12 @@
 // Files of pbrt-v3.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/colour_space.h"
+#include "kaustik/loader/pbrt/shape_areas.h"
 #include "kaustik/loader/pbrt/shapes.h"
 #include "kaustik/loader/pbrt/upgrade.h"
 #include "tests/loader/pbrt_support.h"
@@ -21,7 +23,7 @@ TEST(PbrtV3, Materials) {
   expect_rgb(value<Rgb>(matte, "reflectance"), .1, .2, .3);
   EXPECT_EQ(type_of("Material \"plastic\" \"color Kd\" [.1 .2 .3]"), "roughplastic");
   EXPECT_EQ(type_of("Material \"substrate\" \"float uroughness\" 0 \"float vroughness\" 0"),
-            "plastic");
+            "roughplastic");
   EXPECT_EQ(type_of("Material \"uber\" \"color Ks\" [0 0 0]"), "diffuse");
   EXPECT_EQ(type_of("Material \"uber\""), "roughplastic");
   EXPECT_EQ(type_of("Material \"metal\""), "roughconductor");
@@ -50,14 +52,87 @@ TEST(PbrtV3, BlackbodiesHaveATemperatureAndAScale) {
     LightSource "point" "blackbody I" [6500 100] "rgb scale" [2 2 2]
     AreaLightSource "area" "blackbody L" [3000 7] Shape "sphere"
     AreaLightSource "area" "rgb L" [1 1 1] "rgb scale" [3 3 3] Shape "sphere")");
-  // Of luminance 1, times both.
-  EXPECT_NEAR(pbrt::luminance(value<SpectralCurve>(only(scene, "emitter"), "intensity")), 200,
-              1e-6);
+  // The brightest wavelength has 1, times both. At 6500 K that is 446 nm; at 3000 K it is 966 nm,
+  // and of visible light little is left.
+  const auto intensity = value<SpectralCurve>(only(scene, "emitter"), "intensity");
+  double most = 0;
+  for (const auto& [nm, light] : intensity.samples) most = std::max(most, light);
+  EXPECT_NEAR(most, 200, .01);
   const auto shapes = objects_of(scene, "shape");
-  EXPECT_NEAR(pbrt::luminance(value<SpectralCurve>(only(*shapes[0], "emitter"), "radiance")), 7,
-              1e-6);
+  EXPECT_NEAR(pbrt::luminance(value<SpectralCurve>(only(*shapes[0], "emitter"), "radiance")),
+              7 * .42, 7 * .005);
   expect_rgb(value<Rgb>(only(*shapes[1], "emitter"), "radiance"), 3, 3, 3);
   EXPECT_TRUE(scene.deviations.empty());
+}
+
+TEST(PbrtV3, SpectraOfLightCountAsTheyAre) {
+  const std::string lamps = R"( WorldBegin
+    LightSource "point" "spectrum I" [300 10 900 10]
+    LightSource "distant" "blackbody L" [6500])";
+  const auto luminance_in = [](const Description& scene, size_t i, const char* name) {
+    return pbrt::luminance(value<SpectralCurve>(*objects_of(scene, "emitter")[i], name));
+  };
+  const Description old = parse_scene_of_pbrt("Film \"image\"" + lamps);
+  EXPECT_NEAR(luminance_in(old, 0, "intensity"), 10, 1e-9);
+  EXPECT_NEAR(luminance_in(old, 1, "irradiance"), 1, 1e-9);  // that v3 does not know
+  const Description scene = parse_scene_of_pbrt("Film \"rgb\"" + lamps);
+  EXPECT_NEAR(luminance_in(scene, 0, "intensity"), 1, 1e-9);
+}
+
+TEST(PbrtV3, RoughnessIsTurnedIntoSlopes) {
+  const auto slope = [](const std::string& line) {
+    const Object bsdf = *material(line);
+    return value<double>(bsdf.type == "twosided" ? only(bsdf, "bsdf") : bsdf, "alpha");
+  };
+  // RoughnessToAlpha in core/microfacet.h of pbrt-v3, computed by hand.
+  EXPECT_NEAR(slope("Material \"metal\""), .1388, 5e-4);
+  EXPECT_NEAR(slope("Material \"metal\" \"float roughness\" .1"), .4620, 5e-4);
+  EXPECT_NEAR(slope("Material \"plastic\" \"float roughness\" .5"), 1.1310, 2e-3);
+  EXPECT_NEAR(slope("Material \"substrate\""), .4620, 5e-4);
+  EXPECT_NEAR(slope("Material \"glass\" \"float uroughness\" .1 \"float vroughness\" .1"), .4620,
+              5e-4);
+  EXPECT_NEAR(slope("Material \"metal\" \"float roughness\" .1 \"bool remaproughness\" false"), .1,
+              1e-12);
+  EXPECT_EQ(material("Material \"glass\" \"float uroughness\" 0")->type, "dielectric");
+  // Not so of v4.
+  EXPECT_NEAR(slope("Material \"conductor\" \"float roughness\" .25"), .5, 1e-12);
+}
+
+TEST(PbrtV3, MetalsOfFilesThatAreNotThereAreThoseMetals) {
+  const Description scene = parse_scene_of_pbrt(
+      "WorldBegin Material \"metal\" \"spectrum eta\" \"spds/metals/Au.eta.spd\" \"spectrum k\" "
+      "\"spds/metals/Au.k.spd\" Shape \"sphere\"");
+  EXPECT_EQ(value<std::string>(one_sided(*bsdf_of(scene)), "material"), "au");
+  EXPECT_TRUE(is_missing(scene, "material 'metal'", "Au.k.spd': the metal 'au' stands for it"));
+}
+
+TEST(PbrtV3, SpotsFallOffByAPowerOfTheCosine) {
+  const Description scene = parse_scene_of_pbrt("Film \"image\" WorldBegin LightSource \"spot\"");
+  EXPECT_EQ(value<std::string>(only(scene, "emitter"), "falloff"), "square");
+  EXPECT_TRUE(is_approximated(scene, "light 'spot'", "less steeply"));
+}
+
+TEST(PbrtV3, ProjectedPicturesAreMultipliedByTheirLight) {
+  const auto lamp = [](const std::string& parameters, bool is_coloured) {
+    const Description scene = parse_scene_of_pbrt(
+        "Film \"image\" WorldBegin LightSource \"projection\" \"string mapname\" \"x.exr\" " +
+        parameters);
+    EXPECT_EQ(is_approximated(scene, "light", "'I' makes its picture brighter"), is_coloured);
+    return only(scene, "emitter");
+  };
+  EXPECT_NEAR(value<double>(lamp("", false), "scale"), 1 / std::numbers::pi, 1e-9);
+  EXPECT_EQ(value<double>(lamp("", false), "fov"), 45);
+  EXPECT_NEAR(value<double>(lamp("\"rgb I\" [8 8 8]", false), "scale"), 8 / std::numbers::pi, 1e-4);
+  EXPECT_NEAR(value<double>(lamp("\"rgb I\" [0 1 0]", true), "scale"), .7152 / std::numbers::pi,
+              1e-4);
+}
+
+TEST(PbrtV3, TheCameraIsInTheMediumAtTheEndOfTheWorld) {
+  const Description scene = parse_scene_of_pbrt(R"(Film "image" Camera "perspective"
+    MakeNamedMedium "fog" "string type" "homogeneous"
+    MediumInterface "" "fog"
+    WorldBegin Shape "sphere" WorldEnd)");
+  EXPECT_EQ(only(only(scene, "sensor"), "medium").type, "homogeneous");
 }
 
 TEST(PbrtV3, ShuttersChangeNoBrightness) {
@@ -113,6 +188,15 @@ TEST(PbrtV3, AWholeScene) {
   expect_rgb(value<Rgb>(only(scene, "emitter"), "radiance"), 2, 2, 2);
   EXPECT_EQ(objects_of(scene, "shape").size(), 2u);
   EXPECT_TRUE(is_missing(scene, "'t'", "not there"));
+}
+
+// pbrt-v2's own scene of metal has one.
+TEST(PbrtOldTextures, NegativeFactorsCountAsPositive) {
+  const Description scene = parse_scene_of_pbrt(
+      "WorldBegin\nTexture \"tiles\" \"float\" \"checkerboard\"\n"
+      "Texture \"s\" \"float\" \"scale\" \"texture tex1\" \"tiles\" \"float tex2\" [-.25]\n"
+      "Material \"diffuse\" \"texture displacement\" \"s\"\nShape \"sphere\"\n");
+  EXPECT_TRUE(is_approximated(scene, "s", "counts as positive"));
 }
 
 }  // namespace

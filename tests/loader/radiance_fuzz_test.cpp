@@ -1,7 +1,6 @@
 // Damaged scenes: whatever the bytes, the loader returns a description or throws kaustik::Error.
-#include <random>
-
 #include "radiance_support.h"
+#include "tests/loader/damage.h"
 
 namespace kaustik::radiance_test {
 namespace {
@@ -58,80 +57,47 @@ TEST(RadianceFuzz, TruncatedAtEveryByte) {
   EXPECT_GT(refused, int(whole_rad.size()) / 6);
 }
 
-#ifdef KAUSTIK_SLOW_BUILD
-constexpr int rad_rounds = 100;
-#else
-constexpr int rad_rounds = 800;
-#endif
+const int rad_rounds = damage_rounds(800, 100);
 
 TEST(RadianceFuzz, FlippedBytes) {
-  std::mt19937 random(1);
-  int refused = 0;
-  for (int round = 0; round < rad_rounds; ++round) {
-    std::string text = whole_rad;
-    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
-      text[random() % text.size()] ^= char(1 + random() % 255);
-    if (!survives_rad(text)) ++refused;
-  }
+  const int refused = count_refused(whole_rad, 1, rad_rounds, 4, flip_byte, survives_rad);
   EXPECT_GT(refused, rad_rounds / 3);
   EXPECT_LT(refused, rad_rounds);
 }
 
 TEST(RadianceFuzz, ExchangedPieces) {
-  std::mt19937 random(2);
-  for (int round = 0; round < rad_rounds; ++round) {
-    std::string text = whole_rad;
-    for (unsigned pieces = 1 + random() % 3; pieces > 0; --pieces) {
-      const std::string piece = whole_rad.substr(random() % whole_rad.size(), 1 + random() % 60);
-      text.replace(random() % text.size(), random() % 60, piece);
-    }
-    survives_rad(text);
-  }
+  count_refused(whole_rad, 2, rad_rounds, 3, exchanged_piece(whole_rad), survives_rad);
 }
 
 TEST(RadianceFuzz, OddWords) {
-  std::mt19937 random(3);
   const std::vector<std::string> odd = {
       "1e308",         "-1e308", "1e-320",   "nan", "inf", "0",      "-1",
       "999999999999",  "void",   "\"",       "'",   "|",   "!xform", "-a",
       "-i 1000000000", "-s 0",   "-s 1e300", "{",   "(",   "^",      "#"};
-  for (int round = 0; round < rad_rounds; ++round) {
-    std::string text = whole_rad;
-    for (unsigned n = 1 + random() % 3; n > 0; --n) {
-      // A word in place of another one.
-      const size_t begin = text.find_first_of(" \n", random() % (text.size() - 1)) + 1;
-      const size_t end = std::min(text.find_first_of(" \n", begin), text.size());
-      if (begin < end) text.replace(begin, end - begin, odd[random() % odd.size()]);
-    }
-    survives_rad(text);
-  }
+  // A word in place of another one.
+  const auto change = [&](std::string& text, std::mt19937& random) {
+    const size_t begin = text.find_first_of(" \n", random() % (text.size() - 1)) + 1;
+    const size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+    if (begin < end) text.replace(begin, end - begin, odd[random() % odd.size()]);
+  };
+  count_refused(whole_rad, 3, rad_rounds, 3, change, survives_rad);
 }
 
 TEST(RadianceFuzz, Functions) {
   const std::string whole =
       "void brightfunc f 2 'if(Px-.5, A1*sin(3*Py)^2, fnoise3(Px,Py,Pz))' . -rz 20 -s 2 0 1 .5\n"
       "f plastic p 0 0 5 .5 .5 .5 0 0\np polygon q 0 0 9 0 0 0 1 0 0 1 1 0\n";
-  std::mt19937 random(5);
-  const std::string letters = "()*/+-^,.0123456789PxyzAif'{}` ";
-  for (int round = 0; round < rad_rounds / 20; ++round) {
-    std::string text = whole;
-    for (unsigned n = 1 + random() % 3; n > 0; --n)
-      text[random() % 120] = letters[random() % letters.size()];
-    survives_rad(text);
-  }
+  const Change change = odd_letter("()*/+-^,.0123456789PxyzAif'{}` ", 120);
+  count_refused(whole, 5, rad_rounds / 20, 3, change, survives_rad);
 }
 
 TEST(RadianceFuzz, ControlFiles) {
   const std::string whole =
       "materials= a.mat\nscene= a.rad b.rad\nview= x -vtv -vp 0 0 1 -vd 0 1 0 -vh 40\n"
       "RESOLUTION= 64 64\nEXPOSURE= +1\nZONE= I 0 1 0 1 0 1\n";
-  std::mt19937 random(4);
-  for (int round = 0; round < rad_rounds; ++round) {
-    std::string text = whole;
-    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
-      text[random() % text.size()] = char(32 + random() % 95);
-    survives_rad(text);
-  }
+  std::string printable;
+  for (char c = ' '; c < 127; ++c) printable += c;
+  count_refused(whole, 4, rad_rounds, 4, odd_letter(printable), survives_rad);
 }
 
 }  // namespace

@@ -170,7 +170,13 @@ TEST(RadiancePatterns, MissingFilesAreSeen) {
   expect_colour(checker, "color0", .8, 0, .8);
   const auto function =
       with_material("void brightfunc f 2 x none.cal 0 0\nf plastic m 0 0 5 .5 .5 .5 0 0\n");
-  EXPECT_TRUE(tells(function, DeviationKind::ignored, "brightfunc 'f'", "none.cal"));
+  EXPECT_TRUE(tells(function, DeviationKind::missing, "brightfunc 'f'", "none.cal"));
+  const auto data =
+      with_material("void brightdata d 4 noop none.dat . Px 0 0\nd plastic m 0 0 5 .5 .5 .5 0 0\n");
+  EXPECT_TRUE(tells(data, DeviationKind::missing, "brightdata 'd'", "none.dat"));
+  const auto spectrum =
+      with_material("void specfile s 1 none.spd 0 0\ns plastic m 0 0 5 .5 .5 .5 0 0\n");
+  EXPECT_TRUE(tells(spectrum, DeviationKind::missing, "specfile 's'", "none.spd"));
 }
 
 TEST(RadiancePatterns, FunctionsOfFiles) {

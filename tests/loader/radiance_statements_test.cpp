@@ -98,9 +98,18 @@ TEST(RadianceErrors, CommandsAreNeverRun) {
   expect_wrong("!xform `ls` x.rad\n", "test.rad:1:1", "has a '`'", "xform -e");
   expect_wrong("!xform -t 1 x 2 a.rad\n", "test.rad:1:1", "'x' stands where 'xform' expects",
                "xform [-t x y z]");
-  expect_wrong("!xform -t 1 2 3 none.rad\n", "test.rad:1:1", "there is no file 'none.rad'",
-               "relative to this file");
   expect_wrong("!genbox a b 1 1\n", "test.rad:1:1", "too few arguments", "genbox material name");
+}
+
+TEST(RadianceErrors, PartsThatAreMissingAreLeftOut) {
+  const Description scene = parse_rad("!xform -t 1 2 3 none.rad\n" + grey +
+                                      "grey sphere s 0 0 4 0 0 0 1\n!xform nor.rad\n");
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "file none.rad", "no such file"));
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "file nor.rad", "no such file"));
+  EXPECT_EQ(sole_object(scene, "shape").type, "sphere");
+  LoadOptions strict;
+  strict.is_strict = true;
+  EXPECT_THROW(parse_rad("!xform none.rad\n", strict), Error);
 }
 
 TEST(RadianceErrors, FilesCannotIncludeThemselves) {

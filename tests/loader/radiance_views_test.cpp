@@ -98,7 +98,7 @@ TEST_F(RadianceViews, ScenesWithoutAViewShowAllFromAbove) {
   const Object& camera = sole_object(scene, "sensor");
   EXPECT_EQ(camera.type, "perspective");
   const auto& placed = value<Transform>(camera, "to_world");
-  EXPECT_GT(placed.point({0, 0, 0}).z, 0.5);
+  EXPECT_GT(placed.point({0, 0, 0}).z, 0.1);
   EXPECT_LT(placed.vector({0, 0, 1}).z, 0);
   EXPECT_GT(placed.vector({0, 1, 0}).z, 0.5);
   EXPECT_TRUE(tells(scene, DeviationKind::missing, "camera"));
@@ -129,7 +129,18 @@ TEST_F(RadianceViews, MistakesHaveAPlaceAndARemedy) {
   wrong("view= a -vp 0 0\n", ":3:1", "'-vp' lacks a number", "-vtv -vp");
   wrong("view= a -vd 0 0 1\n", ":3:1", "parallel", "-vu");
   wrong("view= a -vtx -vp 0 0 0\n", ":3:1", "no view of type '-vtx'", "-vtv");
-  wrong("scene= none.rad\n", ":3:1", "no file 'none.rad'", "relative");
+  // Nothing of the scene is there.
+  const std::string path = folder_.write("e.rif", "materials= no.mat\nscene= none.rad\n");
+  expect_problem(problems_of([&] { load_radiance(path); }), path + ":1:1", "no file 'no.mat'",
+                 "relative");
+}
+
+TEST_F(RadianceViews, APartThatIsMissingIsLeftOut) {
+  const Description scene =
+      load_radiance(folder_.write("p.rif", "materials= no.mat\nscene= room.rad none.rad\n"));
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "file no.mat", "no such file"));
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "file none.rad", "no such file"));
+  EXPECT_FALSE(rad_objects(scene, "shape").empty());
 }
 
 }  // namespace

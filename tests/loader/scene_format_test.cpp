@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "kaustik/base/error.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 #include "tests/support/temporary_folder.h"
 
 namespace kaustik::test {

@@ -109,6 +109,11 @@ TEST(bsdf_parameters, twosided_glass) {
             "  remedy: use that one without 'twosided'; it has two sides already");
 }
 
+TEST(bsdf_parameters, coating_over_glass) {
+  const auto glass = make_bsdf("dielectric");
+  EXPECT_EQ(make_bsdf("coating", {}, {glass}), glass);
+}
+
 TEST(bsdf_parameters, spectra_become_colours) {
   const SpectralCurve curve{{{400, 0.1}, {700, 0.8}}};
   const auto bsdf = make_bsdf("diffuse", {property("reflectance", curve)});

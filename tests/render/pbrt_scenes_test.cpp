@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "kaustik/loader/pbrt_scene.h"
 #include "tests/support/measure.h"
@@ -169,6 +170,61 @@ TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
       "AttributeBegin Scale 1 1 -1 " + sky + "AttributeEnd\n" + square(true, "");
   const RunningStatistics lit = seen(wall, folder.path(""), 64);
   EXPECT_NEAR(lit.mean(), 2.5, .02 + 4 * lit.standard_error());
+}
+
+/// On a matt wall at z = 5, which faces the lamps, in its middle: E = π L / ρ.
+void expect_lux(const std::string& lamps, double expected, const std::string& folder = "") {
+  constexpr double lux_of_radiance = std::numbers::pi / .5;
+  const RunningStatistics radiance =
+      seen(lamps +
+               "\nShape \"trianglemesh\" \"point3 P\" [-9 -9 5 -9 9 5 9 9 5 9 -9 5] "
+               "\"integer indices\" [0 1 2 0 2 3]",
+           folder, 64);
+  const double error = lux_of_radiance * radiance.standard_error();
+  EXPECT_NEAR(lux_of_radiance * radiance.mean(), expected, 2e-3 * expected + 5 * error) << lamps;
+  EXPECT_LT(error, .02 * expected) << lamps;
+}
+
+/// Of lamps with a power (lm), an illuminance (lx), or their own light, times `scale`.
+TEST(PbrtTraced, LampsHaveTheirIlluminance) {
+  using std::numbers::pi;
+  const auto cosine = [](double degrees) { return std::cos(degrees * pi / 180); };
+  // E = I / d², with I = Φ / 4π.
+  expect_lux("LightSource \"point\" \"rgb I\" [3 3 3] \"float scale\" 2", 6. / 25);
+  expect_lux("LightSource \"point\" \"float power\" 100 \"float scale\" 2", 200 / (4 * pi) / 25);
+  expect_lux("LightSource \"goniometric\" \"rgb I\" [3 3 3] \"float scale\" 2", 6. / 25);
+  expect_lux("LightSource \"goniometric\" \"float power\" 100 \"float scale\" 2",
+             200 / (4 * pi) / 25);
+  // Of a cone that fades by the cosine from 20° to 30°.
+  const double solid_angle = 2 * pi * ((1 - cosine(20)) + (cosine(20) - cosine(30)) / 2);
+  const std::string cone = " \"float coneangle\" 30 \"float conedeltaangle\" 10 \"float scale\" 2";
+  expect_lux("LightSource \"spot\" \"rgb I\" [3 3 3]" + cone, 6. / 25);
+  expect_lux("LightSource \"spot\" \"float power\" 100" + cone, 200 / solid_angle / 25);
+  expect_lux("LightSource \"distant\" \"rgb L\" [3 3 3] \"float scale\" 2", 6);
+  expect_lux("LightSource \"distant\" \"float illuminance\" 700 \"float scale\" 2", 1400);
+  // E = π L of a sky that is alike everywhere.
+  expect_lux("LightSource \"infinite\" \"rgb L\" [3 3 3] \"float scale\" 2", 6 * pi);
+  expect_lux("LightSource \"infinite\" \"float illuminance\" 700 \"float scale\" 2", 1400);
+  // E = π L r² / (r² + d²) of a disk of radius 1 at a distance of 6, with L = Φ / (π · π r²).
+  const std::string disk =
+      " AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] Translate 0 0 -1 "
+      "AreaLightSource \"diffuse\" \"float scale\" 2 ";
+  const std::string end = " Shape \"disk\" AttributeEnd";
+  expect_lux(disk + "\"rgb L\" [3 3 3]" + end, 6 * pi / 37);
+  expect_lux(disk + "\"float power\" 100" + end, 200 / pi / 37);
+  expect_lux(disk + "\"float power\" 100 \"bool twosided\" true" + end, 100 / pi / 37);
+}
+
+/// In the middle of the beam, a picture's number times `scale` is the intensity.
+TEST(PbrtTraced, ProjectorsHaveTheirIlluminance) {
+  const test::TemporaryFolder folder;
+  write(folder, "grey.pfm", pfm(2, 2, {.5, .5, .5, .5}));
+  for (const double fov : {30., 90.})
+    expect_lux(
+        "LightSource \"projection\" \"string filename\" \"grey.pfm\" \"float scale\" 12 "
+        "\"float fov\" " +
+            std::to_string(fov),
+        6. / 25, folder.path(""));
 }
 
 }  // namespace

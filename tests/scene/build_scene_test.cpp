@@ -427,6 +427,13 @@ TEST(BuildScene, NamesInCamelCase) {
               -1, 1e-5f);
 }
 
+TEST(BuildScene, TypesWithAWordMoreAreOfDialects) {
+  expect_one(lenient_warnings("<sensor type=\"codedperspective\"/>" + sphere),
+             "unknown sensor type 'codedperspective': 'perspective' is used instead");
+  expect_problem("<sensor type=\"perspectivs\"/>" + sphere, "2:1",
+                 "unknown sensor type 'perspectivs'", "did you mean 'perspective'?");
+}
+
 TEST(BuildScene, SurfacesOfDialects) {
   const auto reflected = [](const std::string& bsdf) {
     const std::string text = camera + "<shape type=\"sphere\">" + bsdf + "</shape>";
@@ -448,9 +455,16 @@ TEST(BuildScene, LampsWithoutABsdfAreBlack) {
     return scene.surface(0).bsdf->albedo({}, {0, 0, 1}, Lobes::all)[0];
   };
   EXPECT_EQ(albedo(*scene_of(camera + "<shape type=\"sphere\">" + lamp)), 0);
-  const std::string nothing = camera + "<shape type=\"sphere\"><bsdf type=\"null\"/>" + lamp;
-  expect_one(lenient_warnings(nothing), "is not there, so it cannot be a light");
-  EXPECT_EQ(albedo(*scene_of(nothing)), 0);
+}
+
+TEST(BuildScene, LampsOfNullLetLightPass) {
+  const std::string text = camera +
+                           "<shape type=\"sphere\"><bsdf type=\"null\"/>"
+                           "<emitter type=\"area\"/></shape>";
+  const auto scene = scene_of(text);
+  EXPECT_TRUE(scene->warnings().empty());
+  EXPECT_FALSE(scene->surface(0).traits.is_null);  // paths look at it
+  EXPECT_EQ(scene->surface(0).bsdf->straight({}, {0, 0, 1})[0], 1);
 }
 
 // Mitsuba's: before the scene, so far away that its larger side fills 45 degrees.
@@ -554,9 +568,31 @@ TEST(BuildScene, WhatMeshFilesLeaveOutIsReportedOnce) {
 }
 
 TEST(BuildScene, ErrorsWithoutAPlaceGetThatOfTheFileName) {
-  expect_problem(
-      camera + "<shape type=\"ply\">\n <string name=\"filename\" value=\"no.ply\"/></shape>", "3:2",
-      "No such file", "check the name");
+  expect_problem(camera + "<shape type=\"ply\">\n <string name=\"filename\" value=\".\"/></shape>",
+                 "3:2", "not a regular file", "give the name of a file");
+}
+
+TEST(BuildScene, FilesThatAreNotThereLeaveStandIns) {
+  const auto file = [](const std::string& name) {
+    return "<string name=\"filename\" value=\"" + name + "\"/>";
+  };
+  const std::string mesh = camera + sphere + "\n<shape type=\"ply\">" + file("no.ply") +
+                           "<emitter type=\"area\"/></shape>";
+  expect_one(lenient_warnings(mesh), "3:19: there is no file 'no.ply': the shape is left out");
+  EXPECT_EQ(scene_of(mesh)->surface_count(), 1u);
+  EXPECT_TRUE(scene_of(mesh)->lights().empty());
+  const std::string picture = camera +
+                              "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture "
+                              "type=\"bitmap\" name=\"reflectance\">" +
+                              file("no.png") + "</texture></bsdf></shape>";
+  expect_one(lenient_warnings(picture), "no file 'no.png': a magenta checker stands for it");
+  const Spectrum seen = scene_of(picture)->surface(0).bsdf->albedo({}, {0, 0, 1}, Lobes::all);
+  EXPECT_FLOAT_EQ(seen[0], 0.8f);
+  EXPECT_FLOAT_EQ(seen[1], 0);
+  const std::string sky = camera + sphere + "<emitter type=\"envmap\">" + file("no.exr") +
+                          "<float name=\"scale\" value=\"3\"/></emitter>";
+  expect_one(lenient_warnings(sky), "no file 'no.exr': even light stands for it");
+  EXPECT_EQ(scene_of(sky)->lights().size(), 1u);
 }
 
 class CountingObserver final : public RayObserver {

@@ -253,6 +253,15 @@ TEST_F(GridsInScenes, DoNotMoveWithInstances) {
       << scene->warnings()[0];
 }
 
+TEST_F(GridsInScenes, ThatAreNotThereAreEmpty) {
+  const auto scene =
+      scene_of(cloud(grid("sigma_t", "<string name=\"filename\" value=\"nothing.vol\"/>")));
+  ASSERT_FALSE(scene->warnings().empty());
+  EXPECT_NE(scene->warnings()[0].find("no file 'nothing.vol': it is 0 everywhere"),
+            std::string::npos)
+      << scene->warnings()[0];
+}
+
 TEST_F(GridsInScenes, SayWhatIsWrong) {
   const auto problem = [](const std::string& text, const std::string& message) {
     const std::vector<Problem> problems = problems_of(text);
@@ -260,8 +269,6 @@ TEST_F(GridsInScenes, SayWhatIsWrong) {
     EXPECT_NE(problems[0].message.find(message), std::string::npos) << problems[0].message;
     EXPECT_FALSE(problems[0].remedy.empty()) << problems[0].message;
   };
-  problem(cloud(grid("sigma_t", "<string name=\"filename\" value=\"nothing.vol\"/>")),
-          "nothing.vol");
   problem(cloud(grid("sigma_t", file("VOL\x03"))), "header");
   problem(cloud(grid("sigma_t", "")), "filename");
   problem(cloud(grid("albeedo", file(two_cells_))), "takes no volume 'albeedo'");

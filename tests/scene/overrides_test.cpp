@@ -39,6 +39,26 @@ TEST(Overrides, ReplaceWhatTheFileSays) {
   EXPECT_NEAR(scene->tracer().shape(0).bounds().max.x, 3.5f, 1e-5f);
 }
 
+TEST(Overrides, TheCropWindowOfTheFileStaysTheSamePart) {
+  const std::string text =
+      "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"400\"/>"
+      "<integer name=\"height\" value=\"300\"/><integer name=\"crop_offset_x\" value=\"300\"/>"
+      "<integer name=\"crop_width\" value=\"100\"/><integer name=\"crop_offset_y\" "
+      "value=\"100\"/><integer name=\"crop_height\" value=\"150\"/></film></sensor>"
+      "<shape type=\"sphere\"/>";
+  const auto film = [&](std::initializer_list<const char*> settings) {
+    Description description = description_of(text);
+    for (const char* setting : settings) override_property(description, setting);
+    return build_scene(description)->film();
+  };
+  const auto small = film({"film.width=80", "film.height=30"});
+  EXPECT_EQ(small.crop_offset, Vec2i(60, 10));
+  EXPECT_EQ(small.crop_size, Vec2i(20, 15));
+  EXPECT_EQ(film({"film.width=200", "film.width=40"}).crop_offset.x, 30);
+  // What is set stays as it is set.
+  EXPECT_EQ(film({"film.crop_offset_x=1", "film.crop_width=7", "film.width=40"}).crop_size.x, 7);
+}
+
 TEST(Overrides, TheLastOneCounts) {
   Description description = description_of(objects);
   override_property(description, "film.width=20");

@@ -103,7 +103,7 @@ TEST(PbrtScene, AllLampsShapesAndMediaAreBuilt) {
        {"\"homogeneous\"", "\"homogeneous\" \"string preset\" \"Skin1\"",
         "\"homogeneous\" \"spectrum sigma_a\" [400 1 700 2] \"float g\" -.5",
         "\"uniformgrid\" \"integer nx\" 2 \"float density\" [0 1] \"rgb sigma_a\" [1 2 3]",
-        "\"rgbgrid\" \"rgb sigma_a\" [1 2 3]", "\"cloud\""})
+        "\"rgbgrid\" \"rgb sigma_a\" [1 2 3]", "\"cloud\" \"point3 p1\" [1 .1 .1]"})
     expect_sound(
         fmt::format("MakeNamedMedium \"m\" \"string type\" {}\nMediumInterface \"m\" \"\" "
                     "Material \"interface\"",

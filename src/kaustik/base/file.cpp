@@ -19,7 +19,8 @@
 #include <utility>
 
 #include "kaustik/base/error.h"
-#include "kaustik/base/inflate.h"
+#include "kaustik/base/gzip.h"
+#include "kaustik/base/memory.h"
 
 namespace kaustik {
 namespace {
@@ -255,7 +256,10 @@ FilePart read_file_part(const std::string& path, uint64_t begin, size_t most) {
   const InputFile file(path);
   if (begin >= file.size()) return {{}, file.size()};
   try {
-    std::vector<uint8_t> bytes(size_t(std::min<uint64_t>(most, file.size() - begin)));
+    std::vector<uint8_t> bytes;
+    const auto count = size_t(std::min<uint64_t>(most, file.size() - begin));
+    reserve_large(bytes, count);
+    bytes.resize(count);
     bytes.resize(file.read(begin, bytes));
     return {std::move(bytes), file.size()};
   } catch (const std::bad_alloc&) {
@@ -280,23 +284,12 @@ InputFile::InputFile(const std::string& path)
 }
 
 InputFile::InputFile(const std::string& path, MayBePacked) : InputFile(path) {
-  // Meshes of text are packed to a tenth.
-  constexpr uint64_t usual_growth = 30, always_allowed_growth = uint64_t{64} << 20;
   uint8_t mark[2];
-  if (read(0, mark) < 2 || mark[0] != 0x1f || mark[1] != 0x8b) return;
+  if (!is_gzip({mark, read(0, mark)})) return;
   std::vector<uint8_t> packed(size_);
   packed.resize(read(0, packed));
-  const uint64_t most = always_allowed_growth + usual_growth * packed.size();
-  std::vector<uint8_t> bytes;
-  Inflater inflater(packed, Packing::gzip);
-  inflater.unpack(bytes, size_t(most) + 1);
-  if (inflater.is_damaged() || bytes.empty())
-    throw_input(fmt::format("the gzip'd file '{}' is damaged or ends too early", path),
-                "copy or pack it again");
-  if (bytes.size() > most)
-    throw_input(fmt::format("the gzip'd file '{}' grows to more than {} bytes", path, most),
-                "unpack it if that is meant");
-  unpacked_ = std::move(bytes);
+  unpacked_ =
+      kaustik::unpacked(std::move(packed), std::numeric_limits<size_t>::max() - 1, place_in(path));
   size_ = unpacked_.size();
 }
 
@@ -363,6 +356,10 @@ bool write_file_atomically_if(const std::string& path, std::span<const uint8_t> 
   if (!is_wanted()) return false;
   file.replace_target();
   return true;
+}
+
+void write_text_atomically(const std::string& path, std::string_view text) {
+  write_file_atomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace kaustik

@@ -3,6 +3,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace kaustik {
@@ -57,6 +58,7 @@ class InputFile {
 /// (disk full, file size limit, …). The caller must have SIGXFSZ ignored if a file size limit may
 /// be set.
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes);
+void write_text_atomically(const std::string& path, std::string_view text);
 
 /// The same, unless `is_wanted`, which is asked right before the file is put in its place, says no:
 /// then what is there stays, and this returns false. From the question on until the file is in its

@@ -13,7 +13,9 @@ NumberList parse_number_list(std::string_view text) {
     const size_t end = std::min(text.find_first_of(separators, begin), text.size());
     const std::string_view word = text.substr(begin, end - begin);
     double number = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+    const auto [stop, error] =
+        std::from_chars(word.data() + has_plus, word.data() + word.size(), number);
     if (error != std::errc{} || stop != word.data() + word.size() || !std::isfinite(number)) {
       list.wrong_word = word.substr(0, 60);
       return list;

@@ -1,4 +1,5 @@
 #include "kaustik/geometry/mesh_buffers.h"
+#include "kaustik/base/memory.h"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ class BufferReader {
     else
       expect_one_per_vertex(wanted);
     MeshAttribute made = row;
-    made.values.reserve(array_->count());
+    reserve_large(made.values, array_->count());
     array_->visit([&]<typename T>(std::span<const T> values) {
       const double largest = std::is_integral_v<T> ? double(std::numeric_limits<T>::max()) : 0.0;
       for (const T value : values) made.values.push_back(attribute_value(double(value), largest));
@@ -96,7 +97,7 @@ class BufferReader {
   std::vector<Tuple> tuples(std::optional<MeshFault> (*fault_of)(uint64_t, const Tuple&)) const {
     constexpr size_t size = sizeof(Tuple) / sizeof(float);
     std::vector<Tuple> result;
-    result.reserve(rows() + 1);  // see MeshShape
+    reserve_large(result, rows() + 1);  // see MeshShape
     array_->visit([&](auto values) {
       for (size_t row = 0; row < rows(); ++row) {
         Tuple tuple;

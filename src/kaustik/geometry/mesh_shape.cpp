@@ -1,4 +1,5 @@
 #include "kaustik/geometry/mesh_shape.h"
+#include "kaustik/base/memory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -150,7 +151,7 @@ UvDerivatives MeshShape::uv_derivatives(const SurfacePoint& at) const {
 }
 
 void MeshShape::build_distribution() const {
-  cumulative_area_.reserve(mesh_.triangles.size());
+  reserve_large(cumulative_area_, mesh_.triangles.size());
   double sum = 0;
   for (const auto& corner : mesh_.triangles)
     cumulative_area_.push_back(sum += triangle_area(mesh_, corner));

@@ -173,6 +173,12 @@ ObjCorner read_corner(const ObjLines& line, std::string_view word) {
   return corner;
 }
 
+/// Faces that take too long to be cut into triangles, which are left out.
+struct UncutFaces {
+  size_t count = 0;
+  uint64_t first_line = 0;
+};
+
 /// The faces of a piece, whose corners have numbers of the piece's own.
 class PieceOfFaces {
  public:
@@ -189,9 +195,11 @@ class PieceOfFaces {
 
   size_t triangle_count() const { return triangles_.size(); }
   size_t small_faces() const { return small_faces_; }
+  const UncutFaces& uncut_faces() const { return uncut_; }
 
  private:
   void read_face(const ObjLines& line, std::span<const Vec3f> positions, PolygonCutter& cutter);
+  void cut_face(const ObjLines& line, std::span<const Vec3f> positions, PolygonCutter& cutter);
 
   std::vector<ObjCorner> corners_;  ///< all different
   ObjCornerTable table_;
@@ -199,6 +207,7 @@ class PieceOfFaces {
   std::vector<uint32_t> vertices_;            ///< of the corners
   std::vector<uint32_t> places_, positions_;  ///< of the face: corners, and what they use
   size_t small_faces_ = 0;
+  UncutFaces uncut_;
 };
 
 void PieceOfFaces::clear() {
@@ -206,6 +215,7 @@ void PieceOfFaces::clear() {
   table_.clear();
   triangles_.clear();
   small_faces_ = 0;
+  uncut_ = {};
 }
 
 template <typename Selected>
@@ -240,11 +250,16 @@ void PieceOfFaces::read_face(const ObjLines& line, std::span<const Vec3f> positi
     ++small_faces_;
   else if (places_.size() == 3)
     triangles_.push_back({places_[0], places_[1], places_[2]});
-  else if (!cutter.cut(positions.first(line.before().positions), positions_, places_, triangles_))
-    throw LineFault{line.number(),
-                    fmt::format("face {} with {} corners takes too long to be cut into triangles",
-                                line.before().faces + 1, places_.size()),
-                    "export the mesh as triangles"};
+  else
+    cut_face(line, positions, cutter);
+}
+
+void PieceOfFaces::cut_face(const ObjLines& line, std::span<const Vec3f> positions,
+                            PolygonCutter& cutter) {
+  const size_t before = triangles_.size();
+  if (cutter.cut(positions.first(line.before().positions), positions_, places_, triangles_)) return;
+  triangles_.resize(before);
+  if (uncut_.count++ == 0) uncut_.first_line = line.number();
 }
 
 void PieceOfFaces::number(ObjVertices& vertices) {
@@ -332,6 +347,7 @@ class ObjReader {
   std::optional<ObjVertices> vertices_;
   TriangleMesh mesh_;
   size_t small_faces_ = 0, infinite_colours_ = 0;
+  UncutFaces uncut_;
 };
 
 void ObjReader::check_counts() const {
@@ -423,6 +439,8 @@ void ObjReader::read_faces() {
       begins.push_back(count);
       count += read[i].triangle_count();
       small_faces_ += read[i].small_faces();
+      if (uncut_.count == 0) uncut_.first_line = read[i].uncut_faces().first_line;
+      uncut_.count += read[i].uncut_faces().count;
     }
     if (const auto fault = fault_of_count(vertices_->size(), "vertex"))
       fail(fault->message, fault->remedy);
@@ -496,6 +514,11 @@ std::vector<std::string> ObjReader::remarks() const {
   if (infinite_colours_ > 0)
     remarks.push_back(remark_on_attribute("vertex_color", infinite_colours_, path_));
   if (small_faces_ > 0) remarks.push_back(remark_on_small_faces(small_faces_, path_));
+  if (uncut_.count > 0)
+    remarks.push_back(
+        fmt::format("{}:{}: {} left out: to cut so many corners into triangles takes too long",
+                    path_, uncut_.first_line,
+                    uncut_.count == 1 ? "a face was" : fmt::format("{} faces were", uncut_.count)));
   return remarks;
 }
 

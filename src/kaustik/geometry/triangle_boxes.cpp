@@ -1,10 +1,13 @@
-// Boxes around a mesh: the largest box is split again and again, at the median of its triangles or,
-// when it holds a single one, by halving that triangle at its longest edge. So a pair of huge or
-// long triangles gets tight boxes as well.
+// Boxes around a mesh: the largest box is split again and again, at the median of its triangles (of
+// some of them where there are many) or, when it holds a single one, by halving that triangle at
+// its longest edge. So a pair of huge or long triangles gets tight boxes as well.
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 #include <queue>
 
+#include "kaustik/base/memory.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/geometry/shape_support.h"
 
@@ -23,7 +26,9 @@ struct Piece {
 
 class Splitter {
  public:
-  explicit Splitter(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
+  explicit Splitter(const TriangleMesh& mesh) : mesh_(mesh) {
+    reserve_large(order_, mesh.triangles.size());
+    order_.resize(mesh.triangles.size());
     std::iota(order_.begin(), order_.end(), uint32_t(0));
   }
 
@@ -85,14 +90,37 @@ class Splitter {
   void split_range(const Piece& piece, std::priority_queue<Piece>& queue) {
     const Vec3f d = piece.box.max - piece.box.min;
     const int axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-    const size_t middle = (piece.begin + piece.end) / 2;
+    const size_t middle = middle_of(piece, axis);
+    queue.push(range(piece.begin, middle));
+    queue.push(range(middle, piece.end));
+  }
+
+  /// Where the upper half along the axis begins, after the triangles are put in order; both halves
+  /// have some.
+  size_t middle_of(const Piece& piece, int axis) {
+    constexpr size_t many = 1 << 14, sample_count = 1023;
+    const size_t count = piece.end - piece.begin;
     const auto at = [&](size_t i) { return order_.begin() + std::ptrdiff_t(i); };
+    if (count > many) {
+      // Each triangle lies somewhere else in memory: they are looked at once.
+      std::array<double, sample_count> sample;
+      for (size_t i = 0; i < sample_count; ++i)
+        sample[i] = centroid(order_[piece.begin + i * count / sample_count], axis);
+      std::nth_element(sample.begin(), sample.begin() + sample_count / 2, sample.end());
+      const double median = sample[sample_count / 2];
+      const auto upper = std::stable_partition(
+          at(piece.begin), at(piece.end),
+          [&](uint32_t triangle) { return centroid(triangle, axis) < median; });
+      const auto lower_count = size_t(upper - at(piece.begin));
+      if (lower_count > count / 4 && lower_count < count - count / 4)
+        return piece.begin + lower_count;
+    }
+    const size_t middle = (piece.begin + piece.end) / 2;
     std::nth_element(at(piece.begin), at(middle), at(piece.end), [&](uint32_t a, uint32_t b) {
       const double ca = centroid(a, axis), cb = centroid(b, axis);
       return ca < cb || (ca == cb && a < b);
     });
-    queue.push(range(piece.begin, middle));
-    queue.push(range(middle, piece.end));
+    return middle;
   }
 
   static void halve_triangle(const Piece& piece, std::priority_queue<Piece>& queue) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "kaustik/scene/find_row.h"
+
 namespace kaustik {
 namespace {
 
@@ -108,8 +110,7 @@ std::string choice_note(const Object& object, const Object& native,
 /// Of a dialect: its renderer's own methods change no light.
 bool is_nobodys(const Object& object) {
   return object.place.line > 0 && !find_foreign_integrator(object.type) &&
-         !find_integrator_type(object.type) &&
-         nearest_name(object.type, integrator_names()).empty();
+         !find_integrator_type(object.type) && !is_slip_of_pen(object.type, integrator_names());
 }
 
 /// What stands for an integrator that nobody knows.

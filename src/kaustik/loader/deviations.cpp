@@ -8,21 +8,28 @@
 
 namespace kaustik {
 
-void Deviations::add(DeviationKind kind, std::string object, std::string what, Place place) {
+void Deviations::add(DeviationKind kind, std::string object, std::string what, Place place,
+                     std::string remedy) {
   if (known_.insert({kind, object, what}).second)
-    all_.push_back({kind, std::move(object), std::move(what), std::move(place)});
+    all_.push_back(
+        {{kind, std::move(object), std::move(what), std::move(place)}, std::move(remedy)});
 }
 
 void Deviations::finish(Description& description, bool is_strict) {
   if (is_strict && !all_.empty()) {
     std::vector<Problem> problems;
-    for (const Deviation& deviation : all_)
-      problems.push_back({fmt::format("{} ({})", deviation.what, deviation.object),
-                          "read it without being strict to render what can be rendered",
-                          deviation.place});
+    for (const Told& told : all_)
+      problems.push_back({fmt::format("{} ({})", told.deviation.what, told.deviation.object),
+                          told.remedy.empty()
+                              ? "read it without being strict to render what can be rendered"
+                              : told.remedy,
+                          told.deviation.place});
     throw Error(ErrorKind::input, std::move(problems));
   }
-  for (Deviation& deviation : all_) description.deviations.push_back(std::move(deviation));
+  for (Told& told : all_) {
+    if (!told.remedy.empty()) told.deviation.what += "; " + told.remedy;
+    description.deviations.push_back(std::move(told.deviation));
+  }
   all_.clear();
   known_.clear();
 }

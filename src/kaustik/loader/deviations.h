@@ -15,25 +15,34 @@ namespace kaustik {
 class Deviations {
  public:
   /// Adds one: `object` names the object in terms of the file ("material 'glass'"), `what` is a
-  /// sentence without a full stop ("hair is rendered as a rough dielectric").
-  void add(DeviationKind kind, std::string object, std::string what, Place place);
+  /// sentence without a full stop ("hair is rendered as a rough dielectric"), `remedy` what the
+  /// user can do about it ("did you mean 'hair'?"); "": nothing in particular.
+  void add(DeviationKind kind, std::string object, std::string what, Place place,
+           std::string remedy = {});
 
-  void approximated(std::string object, std::string what, Place place) {
-    add(DeviationKind::approximated, std::move(object), std::move(what), std::move(place));
+  void approximated(std::string object, std::string what, Place place, std::string remedy = {}) {
+    add(DeviationKind::approximated, std::move(object), std::move(what), std::move(place),
+        std::move(remedy));
   }
-  void ignored(std::string object, std::string what, Place place) {
-    add(DeviationKind::ignored, std::move(object), std::move(what), std::move(place));
+  void ignored(std::string object, std::string what, Place place, std::string remedy = {}) {
+    add(DeviationKind::ignored, std::move(object), std::move(what), std::move(place),
+        std::move(remedy));
   }
-  void missing(std::string object, std::string what, Place place) {
-    add(DeviationKind::missing, std::move(object), std::move(what), std::move(place));
+  void missing(std::string object, std::string what, Place place, std::string remedy = {}) {
+    add(DeviationKind::missing, std::move(object), std::move(what), std::move(place),
+        std::move(remedy));
   }
 
-  /// Puts them into the description. Throws Error(input) with one problem for each if the reader is
-  /// strict and there are any.
+  /// Puts them into the description, each with its remedy. Throws Error(input) with one problem for
+  /// each if the reader is strict and there are any.
   void finish(Description& description, bool is_strict);
 
  private:
-  std::vector<Deviation> all_;
+  struct Told {
+    Deviation deviation;
+    std::string remedy;
+  };
+  std::vector<Told> all_;
   std::set<std::tuple<DeviationKind, std::string, std::string>> known_;
 };
 

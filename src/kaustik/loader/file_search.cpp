@@ -1,11 +1,11 @@
 #include "kaustik/loader/file_search.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 #include <system_error>
 
 #include "kaustik/base/text_lines.h"
+#include "kaustik/loader/lower_case.h"
 
 namespace kaustik {
 namespace {
@@ -21,11 +21,6 @@ constexpr std::string_view readable_pictures[] = {".exr",  ".hdr", ".pfm", ".png
                                                   ".jpeg", ".ppm", ".pgm"};
 /// … and of others.
 constexpr std::string_view other_pictures[] = {".dds", ".gif", ".psd", ".rgbe", ".tx", ".ktx"};
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 bool is_absolute_anywhere(std::string_view name) {
   const bool has_drive =

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/mitsuba_reader.h"
 #include "kaustik/loader/mitsuba_tags.h"
 #include "kaustik/loader/xml_scan.h"
@@ -194,8 +194,11 @@ void Reader::read_search_folder(const Element& element, Unfinished&, Source& sou
   if (element.node.parent() != source.document.root()) {
     problems_.add("<path> in an object", "move it to the start of the scene", element.place);
   } else if (!fs::is_directory(folder, ignored)) {
-    problems_.add(fmt::format("there is no folder {}", in_quotes(folder.string())),
-                  "name a folder, relative to the one of this file", value.place);
+    const std::string message = fmt::format("there is no folder {}", in_quotes(folder.string()));
+    if (is_strict_)
+      problems_.add(message, "name a folder, relative to the one of this file", value.place);
+    else
+      leave_out("folder " + folder.string(), message + ": it is not searched", value.place);
   } else {
     std::erase(source.folders, folder);
     source.folders.insert(source.folders.begin(), folder);

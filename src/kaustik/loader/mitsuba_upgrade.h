@@ -29,6 +29,10 @@ std::string upgraded_tag(const std::string& tag, Version version);
 /// The present name of a type.
 std::string upgraded_type(const std::string& family, const std::string& type, Version version);
 
+/// The distribution of facets that a type implied which has another name by now; "": none.
+std::string implied_distribution(const std::string& family, const std::string& type,
+                                 Version version);
+
 /// The present name of a property or nested object of `parent`, whose type is a present one.
 std::string upgraded_name(const std::string& name, const Object& parent, Version version);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kaustik/base/text_lines.h"
+#include "kaustik/loader/near_names.h"
 
 namespace kaustik::mitsuba {
 namespace {
@@ -65,9 +66,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
     if (candidate.size() <= longest_quote) comparable.push_back(candidate);
   if (name.size() <= longest_quote && comparable.size() <= longest_list)
     return suggest(name, comparable);
-  const std::string nearest =
-      name.size() <= longest_quote ? nearest_name(name, comparable) : std::string();
-  return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
+  return name.size() <= longest_quote ? did_you_mean(name, comparable) : std::string();
 }
 
 std::vector<std::string_view> split_list(std::string_view text) {

@@ -9,18 +9,12 @@
 #include <optional>
 
 #include "kaustik/base/text_lines.h"
+#include "kaustik/loader/lower_case.h"
 
 namespace kaustik {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return lower;
-}
 
 class MtlReader {
  public:
@@ -115,7 +109,7 @@ bool MtlReader::read_map_option(std::string_view option, std::string_view& line,
     return map.bump = factor.value_or(1), true;
   }
   if (option == "-imfchan") {
-    const std::string channel = lower_case(next_word(line));
+    const std::string channel = lower_case(std::string(next_word(line)));
     if (channel == "r" || channel == "g" || channel == "b") map.channel = channel;
     if (channel == "m") map.channel = "a";
     return true;
@@ -143,7 +137,7 @@ std::optional<MtlMap> MtlReader::map(std::string_view line) {
 }
 
 void MtlReader::read_line(std::string_view line) {
-  const std::string keyword = lower_case(next_word(line));
+  const std::string keyword = lower_case(std::string(next_word(line)));
   if (keyword == "newmtl") {
     current_ = &result_.materials[std::string(trimmed(line))];
     *current_ = {};

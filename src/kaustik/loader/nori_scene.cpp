@@ -6,7 +6,7 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/nori/scenes.h"
 #include "kaustik/loader/nori/tests.h"
 #include "kaustik/loader/reader_definitions.h"

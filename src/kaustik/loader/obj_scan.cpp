@@ -58,6 +58,8 @@ class ObjScanner {
     } else if (first == 'f' && is_blank(line[1])) {
       scan_.has_faces = true;
       if (is_new_material_) add_material();
+    } else if ((first == 'l' || first == 'p') && is_blank(line[1])) {
+      if (!scan_.first_line) scan_.first_line = place_in(path_, lines_.number());
     } else if (first == 'u' || first == 'm') {
       const std::string_view word = next_word(line);
       if (word == "usemtl") {

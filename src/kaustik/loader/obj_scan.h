@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +13,8 @@ namespace kaustik {
 struct ObjScan {
   Bounds3f bounds;  ///< of its vertices; empty where it has none
   bool has_normals = false, has_faces = false;
-  uint64_t bytes = 0;  ///< of the file
+  uint64_t bytes = 0;                    ///< of the file
+  std::optional<Place> first_line = {};  ///< of lines and points; none: it has neither
   /// Those that faces have, "" for none, with the first line that names them; in their order.
   std::vector<std::pair<std::string, Place>> materials = {};
   /// What follows `mtllib`, at most 100 of them.

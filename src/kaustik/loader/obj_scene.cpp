@@ -80,7 +80,10 @@ class ObjSceneReader {
       std::string_view rest = any ? std::string_view() : line;
       for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest))
         any |= read_library(std::string(name), place);
-      if (!any) deviations_.missing("materials", "there is no such file of materials", place);
+      if (!any)
+        deviations_.missing("materials",
+                            fmt::format("there is no file of materials '{}'", line.substr(0, 200)),
+                            place);
     }
   }
 
@@ -114,6 +117,9 @@ class ObjSceneReader {
                                            "by less than {} degrees",
                                            smooth_degrees),
                                place_in(path_));
+    if (scan.first_line)
+      deviations_.ignored("lines", "lines and points are left out: faces alone are seen",
+                          *scan.first_line);
     for (const auto& [material, place] : scan.materials) {
       auto shape = make_object("shape", "obj", place);
       give(*shape, "filename", path_);

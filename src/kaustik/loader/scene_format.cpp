@@ -7,8 +7,8 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/gltf/gltf_scene.h"
-#include "kaustik/loader/gzip.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/loader/nori_scene.h"
 #include "kaustik/loader/obj_scene.h"

@@ -9,6 +9,11 @@
 namespace kaustik {
 namespace {
 
+constexpr float least_alpha = 1e-3f;
+
+/// How much longer facets are along x than across, as a root; at most 1.
+float aspect_of(float anisotropic) { return std::sqrt(1 - 0.9f * anisotropic); }
+
 AlbedoTables glass_albedos(float eta, float anisotropic, bool outside) {
   const auto weight = [=](float roughness, const Vec3f& up, const Vec2f& u) {
     const MicrofacetDistribution facets = burley_facets(roughness, anisotropic);
@@ -45,9 +50,13 @@ AlbedoTables metal_means(float anisotropic) {
 }  // namespace
 
 MicrofacetDistribution burley_facets(float roughness, float anisotropic) {
-  const float aspect = std::sqrt(1 - 0.9f * anisotropic), alpha = roughness * roughness;
-  return {MicrofacetDistribution::Kind::ggx, std::max(1e-3f, alpha / aspect),
-          std::max(1e-3f, alpha * aspect)};
+  const float aspect = aspect_of(anisotropic), alpha = roughness * roughness;
+  return {MicrofacetDistribution::Kind::ggx, std::max(least_alpha, alpha / aspect),
+          std::max(least_alpha, alpha * aspect)};
+}
+
+bool are_smoothest(float roughness, float anisotropic) {
+  return roughness * roughness <= least_alpha * aspect_of(anisotropic);
 }
 
 std::shared_ptr<const BurleyAlbedos> burley_albedos(float eta, float anisotropic) {

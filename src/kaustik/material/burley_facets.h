@@ -10,6 +10,9 @@ namespace kaustik {
 /// roughness alpha of roughness², times as long along x as across by the root of
 /// 1 − 0.9 anisotropic.
 MicrofacetDistribution burley_facets(float roughness, float anisotropic);
+/// Whether they are as smooth as these facets get: what they scatter is within a few thousandths of
+/// the direction of a mirror.
+bool are_smoothest(float roughness, float anisotropic);
 
 /// Directional albedos of such facets, by roughness: what those reflect that are white (lane 0),
 /// the part of that which Schlick's approximation adds at grazing angles (lane 1), and what those

@@ -262,11 +262,16 @@ const TypeInfo& roughcoating_info() {
 
 std::shared_ptr<const Bsdf> make_coating(const BsdfInputs& inputs, bool is_rough) {
   const Arguments& arguments = inputs.arguments;
-  if (inputs.nested.front()->traits().transmits)
-    throw Error(ErrorKind::input,
-                fmt::format("bsdf '{}' holds one that transmits light", arguments.info().name),
-                "put the coat around a bsdf that reflects, such as diffuse or conductor",
-                arguments.place());
+  if (inputs.nested.front()->traits().transmits) {
+    const std::string fault =
+        fmt::format("bsdf '{}' holds one that transmits light", arguments.info().name);
+    if (inputs.is_strict)
+      throw Error(ErrorKind::input, fault,
+                  "put the coat around a bsdf that reflects, such as diffuse or conductor",
+                  arguments.place());
+    inputs.warn(fault + ": it has no coat");
+    return inputs.nested.front();
+  }
   const SpectralValue interior = dielectric_ior_of(arguments, "int_ior"),
                       exterior = dielectric_ior_of(arguments, "ext_ior");
   CoatLayer coat{.eta = interior.rgb()[0] / exterior.rgb()[0],

@@ -26,6 +26,7 @@ class OpenPbr final : public Bsdf {
   explicit OpenPbr(OpenPbrParameters parameters)
       : Bsdf({.lobes = Lobes::diffuse | Lobes::glossy,
               .transmits = parameters.may_transmit(),
+              .passes_straight = parameters.may_be_pane(),
               .is_lambertian = false,
               .needs = parameters.needs()}),
         parameters_(std::move(parameters)),
@@ -48,6 +49,13 @@ class OpenPbr final : public Bsdf {
   float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
             Lobes lobes) const override {
     return answer(context, parameters_.at(context), wo, wi, lobes, Densities::forward).pdf;
+  }
+  Spectrum straight(const BsdfContext& context, const Vec3f& wo) const override {
+    if (!traits().passes_straight || wo.z == 0) return Spectrum();
+    const OpenPbrLook look = parameters_.at(context);
+    if (!parameters_.is_pane(look)) return Spectrum();
+    const Vec3f o = seen_from(wo);
+    return passed_by(look, o.z, sqr(layers_.beneath_coat(look, o)));
   }
   BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
     return answer(context, parameters_.at(context), wo, wi, Lobes::all, Densities::both);
@@ -286,17 +294,21 @@ class OpenPbr final : public Bsdf {
     result.pdf_reverse += reverse.matt * cosine_hemisphere_pdf(o.z);
   }
 
-  /// Straight on through a sheet, whose sides both have the layers.
+  /// Through the glass of a sheet and the layers of both sides, which leave `share` of it.
+  Spectrum passed_by(const OpenPbrLook& look, float cos_facet, float share) const {
+    const float back = both_sides(layers_.surface_reflectance(look, cos_facet));
+    return look.transmission_color * sqr_of(tint_once(look)) * (look.clear() * (1 - back) * share);
+  }
+
+  /// On through a sheet, whose sides both have the layers.
   void add_passed(const BsdfContext& context, const OpenPbrLook& look, const Vec3f& o,
                   const Vec3f& i, bool has_gloss, bool has_matt, const Chances& chances,
                   const Chances& reverse, BsdfValues& result) const {
-    if (has_gloss && look.clear() > 0) {
+    if (has_gloss && look.clear() > 0 && !parameters_.is_pane(look)) {
       const FacetReflection facet = facet_reflection(sheet_facets(look), o, i);
       if (facet.cos_facet != 0) {
-        const float back = both_sides(layers_.surface_reflectance(look, facet.cos_facet));
         const float share = layers_.beneath_coat(look, o) * layers_.beneath_coat(look, i);
-        result.glossy = look.transmission_color * sqr_of(tint_once(look)) *
-                        (look.clear() * (1 - back) * share * facet.value);
+        result.glossy = passed_by(look, facet.cos_facet, share) * facet.value;
         result.pdf = chances.passed * facet.pdf;
         result.pdf_reverse = reverse.passed * facet.pdf_reverse;
       }
@@ -381,13 +393,13 @@ class OpenPbr final : public Bsdf {
       albedos.matt_on = matt_on_color(look) * color * beneath;
     }
     if (!(look.clear() > 0)) return;
-    if (is_sheet) {
+    if (is_sheet && !parameters_.is_pane(look)) {
       const OpenPbrLayers::SurfaceAlbedo on = of_sheet(layers_.surface_albedo(
           look, sheet_roughness(look.roughness, parameters_.base_eta()), wo));
       albedos.passed = look.transmission_color * sqr_of(tint_once(look)) *
                        (look.clear() * on.through * layers_.beneath_coat(look, wo) *
                         attenuation_beyond(look, wo));
-    } else {
+    } else if (!is_sheet) {
       albedos.through = look.transmission_color * tint_once(look) *
                         (look.clear() * surface.through * layers_.beneath_coat(look, wo));
     }

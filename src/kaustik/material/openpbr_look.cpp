@@ -152,6 +152,16 @@ bool OpenPbrParameters::may_transmit() const {
   return has_dielectric && (!transmission_.is_zero() || (is_sheet_ && !subsurface_.is_zero()));
 }
 
+bool OpenPbrParameters::is_pane(const OpenPbrLook& look) const {
+  return is_sheet_ && look.clear() > 0 &&
+         kaustik::is_pane(look.roughness, look.anisotropic, base_eta_);
+}
+bool OpenPbrParameters::may_be_pane() const {
+  if (!is_sheet_ || transmission_.is_zero()) return false;
+  return !has_constant_surface() || !transmission_.is_constant() || !metalness_.is_constant() ||
+         is_pane(at({}));
+}
+
 bool OpenPbrParameters::has_constant_layers() const {
   for (const Share* share : {&coat_, &coat_roughness_, &coat_anisotropy_, &fuzz_, &fuzz_roughness_})
     if (!share->is_constant()) return false;

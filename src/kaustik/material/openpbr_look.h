@@ -32,6 +32,9 @@ class OpenPbrParameters {
   SurfaceNeeds needs() const;
   OpenPbrLook at(const BsdfContext& context) const;
   bool may_transmit() const;  ///< by its transmission, or as a sheet
+  bool may_be_pane() const;   ///< somewhere
+  /// Whether light goes straight on through its glass there.
+  bool is_pane(const OpenPbrLook& look) const;
   bool is_sheet() const { return is_sheet_; }
   bool has_coat() const { return !coat_.is_zero(); }
   bool has_fuzz() const { return !fuzz_.is_zero(); }

@@ -49,6 +49,7 @@ class PrincipledThin final : public Bsdf {
       : Bsdf(
             {.lobes = shares.spec_trans.is_zero() ? Lobes::diffuse : Lobes::diffuse | Lobes::glossy,
              .transmits = !shares.spec_trans.is_zero() || !shares.diff_trans.is_zero(),
+             .passes_straight = may_be_pane(shares, eta),
              .is_lambertian = false,
              .needs = needs_of(*base_color, shares)}),
         base_color_(std::move(base_color)),
@@ -72,6 +73,11 @@ class PrincipledThin final : public Bsdf {
   }
   BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
     return answer(context, look_at(context), wo, wi, Lobes::all);
+  }
+  Spectrum straight(const BsdfContext& context, const Vec3f& wo) const override {
+    if (!traits().passes_straight || wo.z == 0) return Spectrum();
+    const ThinLook look = look_at(context);
+    return straight_of(look, raised(wo)) * scale_of(context, look);
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
@@ -124,6 +130,16 @@ class PrincipledThin final : public Bsdf {
   struct Chances {
     float matt_back = 0, matt_on = 0, mirrored = 0, passed = 0;
   };
+
+  static bool may_be_pane(const ThinShares& shares, float eta) {
+    if (shares.spec_trans.is_zero()) return false;
+    return !shares.roughness.is_constant() || !shares.anisotropic.is_constant() ||
+           kaustik::is_pane(shares.roughness.at({}), shares.anisotropic.at({}), eta);
+  }
+  /// Whether light goes straight on through its glassy part there.
+  bool is_pane(const ThinLook& look) const {
+    return look.spec_trans > 0 && kaustik::is_pane(look.roughness, look.anisotropic, eta_);
+  }
 
   static SurfaceNeeds needs_of(const Texture& base_color, const ThinShares& shares) {
     SurfaceNeeds all = texture_needs({&base_color});
@@ -181,6 +197,12 @@ class PrincipledThin final : public Bsdf {
     return look.base * (look.spec_trans * transmittance);
   }
 
+  /// Without the scale.
+  Spectrum straight_of(const ThinLook& look, const Vec3f& up) const {
+    if (!is_pane(look)) return Spectrum();
+    return passed_by(look, 1 - fresnel_dielectric(up.z, eta_).reflectance);
+  }
+
   BsdfValues answer(const BsdfContext& context, const ThinLook& look, const Vec3f& wo,
                     const Vec3f& wi, Lobes lobes) const {
     BsdfValues result;
@@ -190,7 +212,7 @@ class PrincipledThin final : public Bsdf {
     const bool is_matt = any(lobes & Lobes::diffuse);
     const Vec3f o = raised(wo), i = raised(wi);
     const Chances chances = chances_of(look, o, lobes), reverse = chances_of(look, i, lobes);
-    if (has_gloss) {
+    if (has_gloss && !(is_through && is_pane(look))) {
       const FacetReflection facet =
           facet_reflection(is_through ? facets_on(look) : facets_back(look), o, i);
       if (facet.cos_facet != 0) {
@@ -229,7 +251,7 @@ class PrincipledThin final : public Bsdf {
           (white(context) * ((1 - look.spec_tint) * back[2]) +
            (normal * (back[0] - back[1]) + white(context) * back[1]) * look.spec_tint) *
           look.spec_trans;
-      albedos.passed = passed_by(look, on[0] - on[2]);
+      if (!is_pane(look)) albedos.passed = passed_by(look, on[0] - on[2]);
     }
     if (look.matt_back() > 0) {
       albedos.matt_back =
@@ -261,7 +283,8 @@ class PrincipledThin final : public Bsdf {
   float scale_of_look(const ThinLook& look) const {
     const float most = most_reflected([&](const Vec3f& up) {
       const Albedos albedos = albedos_of({}, look, up);
-      return albedos.matt_back + albedos.matt_on + albedos.mirrored + albedos.passed;
+      return albedos.matt_back + albedos.matt_on + albedos.mirrored + albedos.passed +
+             straight_of(look, up);
     });
     return 1 / std::max(1.0f, most);
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kaustik/base/vec.h"
+#include "kaustik/material/burley_facets.h"
 
 namespace kaustik {
 
@@ -19,6 +20,11 @@ inline Vec3f raised(const Vec3f& w) { return w.z < 0 ? beyond(w) : w; }
 /// the denser it is ("Extending the Disney BRDF to a BSDF", 2015, figure 15).
 inline float sheet_roughness(float roughness, float eta) {
   return std::min(1.0f, std::fabs(0.65f * eta - 0.35f) * roughness);
+}
+
+/// Whether what goes through such a sheet goes straight on, as through a pane.
+inline bool is_pane(float roughness, float anisotropic, float eta) {
+  return are_smoothest(sheet_roughness(roughness, eta), anisotropic);
 }
 
 }  // namespace kaustik

@@ -47,6 +47,7 @@ void put_recipe(BinaryWriter& writer, const RenderRecipe& recipe) {
     writer.put_text(value);
   }
   writer.put_text(recipe.camera);
+  writer.put_text(recipe.points);
   writer.put_text(recipe.integrator);
   writer.put(uint64_t(recipe.settings.size()));
   for (const Setting& setting : recipe.settings) {
@@ -70,6 +71,7 @@ RenderRecipe get_recipe(BinaryReader& reader) {
     value = reader.get_text();
   }
   recipe.camera = reader.get_text();
+  recipe.points = reader.get_text();
   recipe.integrator = reader.get_text();
   recipe.settings.resize(reader.get_count(2 * sizeof(uint64_t)));
   for (Setting& setting : recipe.settings) {

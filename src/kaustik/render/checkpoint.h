@@ -23,8 +23,10 @@ struct RenderRecipe {
   std::string folder;  ///< that relative names were meant in, for people
   /// Names and values of the file's variables.
   std::vector<std::pair<std::string, std::string>> definitions;
-  bool is_strict = false;         ///< LoadOptions; not kept: what was accepted once is so again
-  std::string camera;             ///< by its id; "": the first
+  bool is_strict = false;  ///< LoadOptions; not kept: what was accepted once is so again
+  std::string camera;      ///< by its id; "": the first
+  /// A file of points to measure at instead, relative to `folder` or absolute; "": none.
+  std::string points;
   std::string integrator;         ///< instead of the file's; "": that
   std::vector<Setting> settings;  ///< made after that; later ones win
   uint64_t seed = 0;

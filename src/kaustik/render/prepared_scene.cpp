@@ -7,6 +7,7 @@
 #include "kaustik/base/memory.h"
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/integrator/override_integrator.h"
+#include "kaustik/render/measuring.h"
 #include "kaustik/render/scene_warnings.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/deviation_report.h"
@@ -35,7 +36,9 @@ ViewFacts facts_of(const Scene& scene, const std::string& integrator) {
 
 void apply_changes(Description& description, const RenderRecipe& recipe, const Messages& messages,
                    const std::string& integrator_origin) {
-  if (const std::string others = choose_camera(description, recipe.camera); !others.empty())
+  if (!recipe.points.empty())
+    description = measuring(description, "irradiancepoints", {{"filename", recipe.points, {}}});
+  else if (const std::string others = choose_camera(description, recipe.camera); !others.empty())
     messages.tell(others);
   if (!recipe.integrator.empty())
     if (const std::string left_out =

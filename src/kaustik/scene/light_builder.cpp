@@ -66,6 +66,10 @@ void SceneBuilder::make_lights() {
       if (!pending.object) continue;
       type = find_row(light_types(), pending.object->type);
     }
+    if (const auto instead = stand_in_for_file(*pending.object, type->info)) {
+      pending.object = instead.get();
+      type = find_row(light_types(), instead->type);
+    }
     std::vector<std::string> families = {"medium"};
     if (takes_texture(type->info) || !is_strict_) families.emplace_back("texture");
     refuse_children(*pending.object, families);

@@ -136,6 +136,8 @@ std::shared_ptr<const Texture> SceneBuilder::create_texture(const Object& object
     unknown_type(object, texture_names());
     return nullptr;
   }
+  if (const auto instead = stand_in_for_file(object, type->info))
+    return create_texture(*instead, on);
   std::vector<std::string> families;
   if (!texture_parameters(type->info).empty()) families.emplace_back("texture");
   if (takes_volumes(type->info)) families.emplace_back("volume");

@@ -159,6 +159,8 @@ std::shared_ptr<const Volume> SceneBuilder::make_volume(const std::shared_ptr<Ob
     unknown_type(*object, names_of(volume_types()));
     return nullptr;
   }
+  if (const auto instead = stand_in_for_file(*object, type->info))
+    return volume = make_volume(instead);
   refuse_children(*object, {});
   const Arguments arguments = arguments_of(type->info, *object);
   if (arguments.is_complete())

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
 #include <set>
 
 #include "kaustik/scene/scene.h"
@@ -57,6 +61,45 @@ std::shared_ptr<Object> find_object(Description& description, const std::string&
   if (auto made = made_part_of_camera(description, name)) return made;
   throw Error(ErrorKind::input, fmt::format("the scene has no object '{}'", name),
               suggest(name, names));
+}
+
+std::optional<int64_t> whole_number(const Value& value) {
+  if (const auto* integer = std::get_if<int64_t>(&value)) return *integer;
+  const auto* written = std::get_if<Untyped>(&value);
+  int64_t number = 0;
+  if (!written) return std::nullopt;
+  const char* const end = written->text.data() + written->text.size();
+  const auto [at, error] = std::from_chars(written->text.data(), end, number);
+  return error == std::errc() && at == end ? std::optional(number) : std::nullopt;
+}
+
+/// A number of pixels as the file gives it; null: there is none, or it was changed already.
+int64_t* pixels_of_file(Object& film, const std::string& name) {
+  for (Property& property : film.properties)
+    if (property.name == name && property.place.line > 0)
+      return std::get_if<int64_t>(&property.value);
+  return nullptr;
+}
+
+/// Where the picture is to be wider or higher, the crop window of the file stays the same part.
+void scale_crop_window(Object& film, const Property& size) {
+  if (size.name != "width" && size.name != "height") return;
+  const std::string axis = size.name == "width" ? "x" : "y";
+  std::optional<int64_t> before;
+  for (const Property& property : film.properties)
+    if (property.name == size.name) before = whole_number(property.value);
+  int64_t* offset = pixels_of_file(film, "crop_offset_" + axis);
+  int64_t* extent = pixels_of_file(film, "crop_" + size.name);
+  const auto after = whole_number(size.value);
+  if (!before || *before <= 0 || !after || *after <= 0) return;
+  const double factor = double(*after) / double(*before);
+  const auto scaled = [&](int64_t pixel) { return int64_t(std::llround(double(pixel) * factor)); };
+  const int64_t begin = offset ? *offset : 0;
+  if (extent) {
+    const int64_t end = scaled(begin + *extent);
+    *extent = std::max<int64_t>(1, end - std::min(scaled(begin), end));
+  }
+  if (offset) *offset = std::min(scaled(begin), std::max<int64_t>(0, *after - 1));
 }
 
 }  // namespace
@@ -125,6 +168,7 @@ void override_property(Description& description, const Setting& setting) {
 void override_property(Description& description, const std::string& object, Property property) {
   const auto changed = find_object(description, object);
   const std::string& name = property.name;
+  if (changed->family == "film") scale_crop_window(*changed, property);
   std::erase_if(changed->properties, [&](const Property& p) { return p.name == name; });
   std::erase_if(changed->children, [&](const Child& c) { return c.name == name; });
   changed->properties.push_back(std::move(property));

@@ -21,7 +21,8 @@ std::string assignment_of(const Setting& setting);
 /// Changes a description from outside: the object is an id or a family that the scene has once
 /// ("integrator", "sensor", "film", "sampler", "rfilter"). Replaces what the file says. A camera
 /// that has no film or sampler gets one. Throws Error for another object that is not there; its
-/// origin is named if the value is wrong.
+/// origin is named if the value is wrong. The crop window of a film of the file scales with its
+/// size.
 void override_property(Description& description, const Setting& setting);
 /// The same of setting_from(assignment), whose origin is the assignment itself.
 void override_property(Description& description, const std::string& assignment);

@@ -9,6 +9,7 @@
 #include "kaustik/base/warp.h"
 #include "kaustik/scene/camera_kinds.h"
 #include "kaustik/scene/camera_view.h"
+#include "kaustik/scene/direction_file.h"
 
 namespace kaustik {
 namespace {
@@ -21,7 +22,7 @@ struct PlacedDirection {
   Vec3f place, direction;
 };
 
-/// Lists of places and of directions as arguments.
+/// Lists of places and of directions as arguments, or a file of both.
 class DirectionList {
  public:
   /// Names of the rows.
@@ -31,6 +32,7 @@ class DirectionList {
   /// As many as there are rows; without lists the origin and +z of the meter's space. Throws
   /// Error(input), with the name of what is wrong and its row.
   std::vector<PlacedDirection> read() const {
+    if (arguments_.given("filename")) return read_file();
     const Array* places = arguments_.array(places_).get();
     const Array* directions = arguments_.array(directions_).get();
     if (!places != !directions)
@@ -55,6 +57,16 @@ class DirectionList {
   }
 
  private:
+  std::vector<PlacedDirection> read_file() const {
+    for (const char* name : {places_, directions_})
+      if (arguments_.array(name))
+        fail(name, "there is a file, too", "give the lists, or 'filename'");
+    std::vector<PlacedDirection> list;
+    for (const DirectedPlace& row :
+         read_direction_file(arguments_.text("filename"), most_measurements))
+      list.push_back(placed("filename", list.size(), row.place, row.direction));
+    return list;
+  }
   [[noreturn]] void fail(const char* name, const std::string& what, const char* remedy) const {
     fail(name, what, std::string(remedy));
   }
@@ -184,6 +196,10 @@ class RadianceRays final : public Camera {
   ListOfPixels pixels_;
 };
 
+Parameter list_file_parameter(const std::string& sentence) {
+  return optional(file_parameter("filename", sentence));
+}
+
 const TypeInfo& irradiance_points_info() {
   static const TypeInfo info = camera_info(
       "irradiancepoints",
@@ -191,6 +207,8 @@ const TypeInfo& irradiance_points_info() {
       "point has its own pixel, in rows of 1024. Without lists there is one point.",
       {to_world_parameter("Transform from the meter's space to the world. Without lists the point "
                           "is at 0 and its normal is +z."),
+       list_file_parameter("Text file with six numbers on each line: a point and its normal, x, y "
+                           "and z of each."),
        array_parameter("points", {0, 3}, "Points to measure at; needs normals."),
        array_parameter("normals", {0, 3},
                        "Normals toward the measured side, of any length, one for each point.")});
@@ -204,6 +222,8 @@ const TypeInfo& radiance_rays_info() {
                   "pixel, in rows of 1024. Without lists there is one ray.",
                   {to_world_parameter("Transform from the meter's space to the world. Without "
                                       "lists the ray begins at 0 and goes along +z."),
+                   list_file_parameter("Text file with six numbers on each line: the origin of a "
+                                       "ray and its direction, x, y and z of each."),
                    array_parameter("origins", {0, 3}, "Origins of the rays; needs directions."),
                    array_parameter("directions", {0, 3},
                                    "Directions of the rays, of any length, one for each origin.")});

@@ -8,6 +8,7 @@
 
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
+#include "kaustik/material/mask.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/named_in.h"
 #include "kaustik/scene/spectrum_types.h"
@@ -94,7 +95,7 @@ void SceneBuilder::not_here_yet(const Object& object) {
 }
 
 bool SceneBuilder::is_foreign(const Object& object, const std::vector<std::string>& valid) const {
-  return !is_strict_ && nearest_name(object.type, valid).empty();
+  return !is_strict_ && !is_slip_of_pen(object.type, valid);
 }
 
 void SceneBuilder::leave_out(const Object& object, const std::string& consequence) {
@@ -273,6 +274,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       unknown_type(object, valid);
     return std::nullopt;
   }
+  if (lacks_file(object, type->info, "the shape is left out")) return std::nullopt;
   refuse_children(object, {"bsdf", "emitter", "integrator", "medium", "sensor", "texture"});
   const Parameter* placing = type->info.find("to_world");
   const int dimensions = dimensions_left(object);
@@ -312,12 +314,8 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
                                   [](const Child& c) { return c.object->family == "emitter"; });
   // As in Mitsuba a lamp without a bsdf reflects nothing, and other shapes half of the light.
   if (!built.surface.bsdf) built.surface.bsdf = shines ? black_bsdf() : usual_bsdf();
-  if (shines && built.surface.bsdf->traits().is_null) {
-    told_unless_strict("a shape with bsdf 'null' is not there, so it cannot be a light",
-                       "give it another bsdf, such as diffuse; it is taken to be black",
-                       object.place);
-    built.surface.bsdf = black_bsdf();
-  }
+  // Paths look at a lamp that they pass.
+  if (shines && built.surface.bsdf) built.surface.bsdf = with_lobe(built.surface.bsdf);
   if (built.surface.bsdf) built.surface.traits = built.surface.bsdf->traits();
   read_media(object, built.surface);
   if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))

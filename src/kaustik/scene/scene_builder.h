@@ -170,6 +170,11 @@ class SceneBuilder {
   void leave_out(const Object& object, const std::string& consequence);
   /// A shape of which to_world leaves nothing; an error where the scene is read strictly.
   void leave_out_flat(const Object& shape);
+  /// Whether a file that an object names is not there; tells so, with what that leads to. Never, if
+  /// strict: then it is an error where it is read.
+  bool lacks_file(const Object& object, const TypeInfo& info, const std::string& consequence);
+  /// Of a texture, an emitter or a volume that lacks its file; null: it does not.
+  std::shared_ptr<Object> stand_in_for_file(const Object& object, const TypeInfo& info);
   /// A problem where the scene is read strictly, else a warning.
   void told_unless_strict(const std::string& message, const std::string& remedy,
                           const Place& place);

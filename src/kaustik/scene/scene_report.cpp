@@ -32,6 +32,7 @@ struct View {
 
 /// Whether a surface neither reflects nor lets through what comes to its back.
 bool is_black_from_behind(const Surface& surface) {
+  if (surface.traits.passes_straight) return false;
   BsdfContext context;
   context.move_to({.uv = {0.5f, 0.5f}}, {});
   return surface.bsdf->albedo(context, normalize({0.3f, 0.2f, -1.0f}), Lobes::all).is_zero();
@@ -71,6 +72,13 @@ View look_around(const Scene& scene) {
   return view;
 }
 
+/// Lamps that the camera does not see do not count.
+bool has_visible_surface(const Scene& scene) {
+  for (uint32_t i = 0; i < scene.surface_count(); ++i)
+    if (!scene.is_hidden(scene.surface(i).light)) return true;
+  return false;
+}
+
 void describe_view(const Scene& scene, SceneReport& report) {
   const View view = look_around(scene);
   const Camera& camera = scene.camera();
@@ -85,7 +93,7 @@ void describe_view(const Scene& scene, SceneReport& report) {
   report.lines.push_back(
       fmt::format("picture    {} × {} pixels{}", scene.film().crop_size.x, scene.film().crop_size.y,
                   scene.quantity() == Quantity::irradiance ? " of irradiance" : ""));
-  if (scene.surface_count() == 0)
+  if (!has_visible_surface(scene))
     report.warnings.push_back("the scene has no shape: only what is behind it can be seen");
   else if (view.hits == 0 && view.media == 0)
     report.warnings.push_back("the camera sees no shape: check its to_world");

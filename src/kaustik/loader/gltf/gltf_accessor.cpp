@@ -104,7 +104,12 @@ Accessors::Layout Accessors::layout_of(const JsonValue& accessor, size_t index) 
 
 AccessorShape Accessors::shape(size_t index, const JsonValue& at) const {
   const Layout layout = layout_of(file_.item("accessors", index, at), index);
-  return {layout.count, layout.components()};
+  AccessorShape shape{layout.count, layout.components()};
+  with_type(layout.component_type, [&]<typename T>(T) {
+    if constexpr (std::is_integral_v<T>)
+      if (layout.is_normalised) shape.scale = 1 / float(std::numeric_limits<T>::max());
+  });
+  return shape;
 }
 
 Bytes Accessors::checked_part(size_t view, size_t offset, size_t wanted, const JsonValue& at,

@@ -17,6 +17,7 @@ namespace kaustik::gltf {
 /// Numbers of one accessor, of which there are `components` for each element.
 struct AccessorShape {
   size_t count = 0, components = 0;
+  float scale = 1;  ///< of integers that are normalised, one over the largest; else 1
 };
 
 /// The numbers of an array of floats.
@@ -37,6 +38,16 @@ class Accessors {
   std::shared_ptr<const Array> floats(size_t index, const JsonValue& at);
   /// As unsigned integers [count]; those of the buffer where they have no gaps.
   std::shared_ptr<const Array> indices(size_t index, const JsonValue& at);
+
+  /// Whether it has been given numbers, or been read.
+  bool knows_floats(size_t index) const { return known_.contains({index, true}); }
+  /// Gives numbers to an accessor that has no buffer: what floats(), or indices(), is to tell.
+  void supply_floats(size_t index, std::shared_ptr<const Array> values) {
+    known_[{index, true}] = std::move(values);
+  }
+  void supply_indices(size_t index, std::shared_ptr<const Array> values) {
+    known_[{index, false}] = std::move(values);
+  }
 
   /// The box of an accessor by its `min` and `max` alone; nothing without them.
   std::optional<Bounds3f> told_bounds(size_t index, const JsonValue& at) const;

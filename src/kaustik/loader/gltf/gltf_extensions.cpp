@@ -9,7 +9,8 @@ namespace kaustik::gltf {
 namespace {
 
 /// Those whose meaning is rendered, or told where it is not.
-constexpr std::string_view readable[] = {"KHR_lights_punctual",
+constexpr std::string_view readable[] = {"KHR_draco_mesh_compression",
+                                         "KHR_lights_punctual",
                                          "KHR_materials_anisotropy",
                                          "KHR_materials_clearcoat",
                                          "KHR_materials_diffuse_transmission",
@@ -34,7 +35,7 @@ constexpr std::string_view readable[] = {"KHR_lights_punctual",
 /// Those that add nothing to a picture.
 constexpr std::string_view harmless[] = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_animation_pointer"};
 /// Those whose meaning is told where it is met.
-constexpr std::string_view told_elsewhere[] = {"KHR_draco_mesh_compression", "KHR_texture_basisu"};
+constexpr std::string_view told_elsewhere[] = {"KHR_texture_basisu"};
 
 template <size_t n>
 bool is_in(const std::string_view (&names)[n], std::string_view name) {

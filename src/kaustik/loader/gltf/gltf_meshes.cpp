@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/loader/closed_mesh.h"
+#include "kaustik/loader/gltf/gltf_packed_primitive.h"
 #include "kaustik/loader/gltf/gltf_triangles.h"
 #include "kaustik/loader/object_maker.h"
 #include "kaustik/loader/stand_ins.h"
@@ -96,6 +97,7 @@ std::shared_ptr<Object> Meshes::shape_of(const Part& part, const Deformation& de
   const size_t position = *file_.count(part.attributes, "POSITION");
   const size_t vertices = accessors_.shape(position, part.attributes).count;
   try {
+    supply_unpacked(file_, accessors_, part.primitive);
     const auto positions = attribute(part, "POSITION", vertices, 3, 3);
     const auto faces = faces_of(part, vertices);
     if (vertices == 0 || faces->count() == 0) {
@@ -136,9 +138,6 @@ std::shared_ptr<const Array> Meshes::attribute(const Part& part, const std::stri
                                                size_t vertices, size_t least, size_t most) {
   const auto index = file_.count(part.attributes, name);
   if (!index) return nullptr;
-  if (file_.extension(part.primitive, "KHR_draco_mesh_compression") &&
-      !file_.item("accessors", *index, part.attributes).find("bufferView"))
-    throw MissingData{"it is packed by KHR_draco_mesh_compression; export it without compression"};
   const AccessorShape shape = accessors_.shape(*index, part.attributes);
   if (shape.count != vertices || shape.components < least || shape.components > most)
     file_.fail(*part.attributes.find(name),

@@ -7,12 +7,12 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/framing.h"
 #include "kaustik/loader/gltf/gltf_extensions.h"
 #include "kaustik/loader/gltf/gltf_instances.h"
 #include "kaustik/loader/gltf/gltf_meshes.h"
 #include "kaustik/loader/gltf/gltf_view.h"
-#include "kaustik/loader/gzip.h"
 #include "kaustik/loader/object_maker.h"
 #include "kaustik/loader/object_parts.h"
 

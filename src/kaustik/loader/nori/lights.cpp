@@ -58,7 +58,12 @@ std::shared_ptr<Object> surroundings_of(Given& given, Reading& reading) {
   const Object& element = given.element();
   given.skip({"filename"});
   auto light = make_object("emitter", "envmap", element.place);
-  give(*light, "filename", reading.path_of(picture_name(element), element.place));
+  const auto path = reading.path_of(picture_name(element), element.place, "it gives no light");
+  if (!path) {
+    given.skip({"strength", "scale", "intensity", "toworld"});
+    return nullptr;
+  }
+  give(*light, "filename", *path);
   if (const auto strength = given.number({"strength", "scale", "intensity"}))
     give(*light, "scale", *strength);
   if (const auto own = given.transform({"toworld"})) give(*light, "to_world", *own);

@@ -8,16 +8,21 @@
 namespace kaustik::nori {
 namespace {
 
-/// Nori's meshes have the normals of the file, or flat faces.
+/// Nori's meshes have the normals of the file, or flat faces. Null: the file is not there.
 std::shared_ptr<Object> mesh_of_file(Given& given, const char* type, Reading& reading) {
   const auto name = given.text({"filename"});
   if (!name || name->empty())
     throw Error(ErrorKind::input, "the mesh names no file",
                 "write <string name=\"filename\" value=\"mesh.obj\"/>", given.element().place);
   auto shape = make_object("shape", type, given.element().place);
-  const std::string path = reading.path_of(*name, given.place_of({"filename"}));
-  shape->properties.push_back({"filename", path, given.place_of({"filename"})});
-  if (type == std::string_view("obj") && !reading.has_normals(path))
+  const Place place = given.place_of({"filename"});
+  const auto path = reading.path_of(*name, place, "the mesh is left out");
+  if (!path) {
+    given.skip({"toworld"});
+    return nullptr;
+  }
+  shape->properties.push_back({"filename", *path, place});
+  if (type == std::string_view("obj") && !reading.has_normals(*path))
     give(*shape, "face_normals", true);
   return shape;
 }

@@ -9,12 +9,16 @@ namespace kaustik::nori {
 
 namespace fs = std::filesystem;
 
-std::string Reading::path_of(const std::string& name, const Place& place) {
+std::optional<std::string> Reading::path_of(const std::string& name, const Place& place,
+                                            const std::string& instead) {
   const fs::path path = folder_ / name;
   std::error_code ignored;
-  if (is_strict_ || fs::exists(path, ignored)) return path.string();
-  const auto like = search_.find_like(name, {folder_});
-  if (!like) return path.string();
+  if (fs::exists(path, ignored)) return path.string();
+  const auto like = is_strict_ ? std::nullopt : search_.find_like(name, {folder_});
+  if (!like) {
+    deviations.missing(fmt::format("file '{}'", name), "it is not there: " + instead, place);
+    return std::nullopt;
+  }
   deviations.approximated(
       "file " + like->filename().string(),
       fmt::format("there is no file of the name given: '{}' stands for it", like->string()), place);

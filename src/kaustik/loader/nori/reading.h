@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -17,7 +18,9 @@ class Reading {
       : folder_(std::move(folder)), is_strict_(is_strict) {}
 
   /// Of a file that the scene names; one of a like name, which is told, where it is not there.
-  std::string path_of(const std::string& name, const Place& place);
+  /// None: there is none; that is told, with what `instead` says of the stand-in.
+  std::optional<std::string> path_of(const std::string& name, const Place& place,
+                                     const std::string& instead);
   /// Whether an OBJ file has normals; true for files that cannot be read.
   bool has_normals(const std::string& path);
   /// Tells that the nearest that there is stands for an element.

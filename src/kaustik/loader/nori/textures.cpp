@@ -2,6 +2,7 @@
 
 #include "kaustik/loader/nori/materials.h"
 #include "kaustik/loader/object_maker.h"
+#include "kaustik/loader/stand_ins.h"
 
 namespace kaustik::nori {
 namespace {
@@ -36,8 +37,11 @@ std::shared_ptr<Object> texture_of(const Object& element, Reading& reading) {
     return texture;
   }
   if (const auto file = given.text({"filename", "path"}); file && !file->empty()) {
+    const auto path = reading.path_of(*file, given.place_of({"filename", "path"}),
+                                      "a magenta checker stands for it");
+    if (!path) return missing_texture(element.place);
     auto texture = make_object("texture", "bitmap", element.place);
-    give(*texture, "filename", reading.path_of(*file, given.place_of({"filename", "path"})));
+    give(*texture, "filename", *path);
     return texture;
   }
   reading.ignored(element, "there is no such texture here: its place is as if nothing was given");

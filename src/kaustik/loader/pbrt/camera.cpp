@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "kaustik/base/number_list.h"
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/object_parts.h"
 
 namespace kaustik::pbrt {
@@ -154,7 +155,7 @@ std::shared_ptr<Object> make_realistic(const ViewTools& tools, const ParameterLi
   else
     tools.deviations.missing("camera",
                              fmt::format("lens {} is not there: it is one of 50 mm", shown(name)),
-                             list.place());
+                             list.place_of("lensfile"), where_files_lie);
   tools.deviations.approximated(
       "camera", fmt::format("its lens is a thin one of {:.4g} mm", lens.focal_length * 1e3),
       list.place());
@@ -246,7 +247,9 @@ std::shared_ptr<Object> make_sensor(const ViewTools& tools, const ViewSettings& 
     tools.deviations.approximated(
         "camera",
         fmt::format("there is no camera {}: it is one of perspective", shown(camera.type)),
-        list.place());
+        list.place(),
+        did_you_mean(camera.type,
+                     {"perspective", "orthographic", "spherical", "environment", "realistic"}));
   set(*sensor, "to_world", to_world);
   list.tell_unused("camera", tools.deviations);
   hold(*sensor, "", make_film(tools, settings));

@@ -18,6 +18,9 @@ struct Setting {
   ParameterList parameters;
 };
 
+/// Whether a film of that type is of pbrt-v3 or older.
+inline bool is_old_film(const std::string& type) { return type == "image"; }
+
 /// What a file says before its world; what it does not name is as in pbrt.
 struct ViewSettings {
   std::optional<Setting> camera, film, filter, sampler, integrator;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kaustik/loader/deviations.h"
 #include "kaustik/scene/description.h"
 
 namespace kaustik::pbrt {
@@ -53,6 +54,16 @@ inline void set(Object& object, const char* name, Value value) {
 inline void hold(Object& object, const char* name, std::shared_ptr<Object> child) {
   object.children.push_back({name, std::move(child)});
 }
+
+/// What a maker makes, for what is told about it.
+struct Subject {
+  Deviations& deviations;
+  std::string object;  ///< "shape 'sphere'"
+  Place where;         ///< of the directive
+
+  const Place& place() const { return where; }
+  void approximated(const std::string& what) const { deviations.approximated(object, what, where); }
+};
 
 /// A value, or a texture that stands for it; neither: nothing was given.
 struct Input {

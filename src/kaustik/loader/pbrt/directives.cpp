@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "kaustik/loader/near_names.h"
+
 namespace kaustik::pbrt {
 namespace {
 
@@ -13,12 +15,6 @@ constexpr size_t most_name_bytes = 500;
 
 constexpr std::string_view attribute_names[attribute_kinds] = {"shape", "light", "material",
                                                                "medium", "texture"};
-
-std::vector<std::string> words_of(const auto& handlers) {
-  std::vector<std::string> words;
-  for (const auto& handler : handlers) words.emplace_back(handler.first);
-  return words;
-}
 
 }  // namespace
 
@@ -96,7 +92,7 @@ void Directives::run_one(const Call& call) {
   const auto handler = handlers().find(call.word.text);
   if (handler == handlers().end())
     refuse(fmt::format("there is no directive {}", shown(call.word.text)),
-           suggest(std::string(call.word.text.substr(0, 40)), words_of(handlers())));
+           suggest(std::string(call.word.text.substr(0, 40)), names_in(handlers())));
   try {
     (this->*handler->second)(call);
   } catch (const std::invalid_argument&) {
@@ -186,147 +182,14 @@ void Directives::reverse_orientation(const Call&) {
   state_.reverses_orientation = !state_.reverses_orientation;
 }
 
-void Directives::camera(const Call& call) {
-  view_.camera = setting(call);
-  if (state_.transform.start.dimensions() < 3 || state_.transform.end.dimensions() < 3)
-    throw Error(ErrorKind::input, "the camera's transform is singular",
-                "leave out factors of 0 before Camera", call.place());
-  if (state_.transform.is_moving && !(state_.transform.start == state_.transform.end))
-    deviations_.approximated("camera", "it stands still, where its motion begins", call.place());
-  view_.camera_from_world = state_.transform.start;
-  camera_medium_ = state_.media.outside;
-  MovingTransform& world_from_camera = coordinate_systems_["camera"];
-  world_from_camera = state_.transform;
-  world_from_camera.start = state_.transform.start.inverse();
-  world_from_camera.end = state_.transform.end.inverse();
-}
-
-void Directives::film(const Call& call) {
-  view_.film = setting(call);
-  if (state_.colour_space != ColourSpace::srgb)
-    deviations_.approximated("film", "the picture has the primaries of Rec. 709", call.place());
-}
-
-void Directives::sampler(const Call& call) { view_.sampler = setting(call); }
-void Directives::integrator(const Call& call) { view_.integrator = setting(call); }
-void Directives::pixel_filter(const Call& call) { view_.filter = setting(call); }
-void Directives::accelerator(const Call& call) { setting(call); }
-
-void Directives::option(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  const Token value = call.tokens.next();
-  if (value.kind == TokenKind::end)
-    throw Error(ErrorKind::input, "Option lacks a value", "write it behind the name", call.place());
-  // Those that change neither light nor picture.
-  for (const std::string_view harmless :
-       {"seed", "renderingspace", "pixelstats", "displayserver", "wavefront", "nthreads", "quiet",
-        "msereferenceimage", "msereferenceout", "debugstart"})
-    if (is_same_name(name.substr(name.rfind(' ') + 1), harmless)) return;
-  deviations_.ignored(fmt::format("option {}", shown(name)), "it has no effect", call.place());
-}
-
 void Directives::world_begin(const Call&) {
   state_.transform = {};
   state_.changes_start = state_.changes_end = true;
   coordinate_systems_["world"] = {};
 }
 
-void Directives::world_end(const Call&) {}
-
-void Directives::shape(const Call& call) {
-  Setting given = setting(call);
-  world_.add_shape(given.type, std::move(given.parameters), state_);
-}
-
-void Directives::light_source(const Call& call) {
-  Setting given = setting(call);
-  world_.add_light(given.type, std::move(given.parameters), state_);
-}
-
-void Directives::area_light_source(const Call& call) {
-  Setting given = setting(call);
-  state_.area_light = world_.area_light(given.type, std::move(given.parameters), state_);
-}
-
-void Directives::material(const Call& call) {
-  Setting given = setting(call);
-  state_.material = {
-      world_.define_material("", given.type, std::move(given.parameters), state_), {}, 0, {}};
-}
-
-void Directives::make_named_material(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  ParameterList list = parameters(call);
-  const std::string type = list.text("type");
-  world_.define_material(name, type, std::move(list), state_);
-}
-
-void Directives::named_material(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  ParameterList none = parameters(call);
-  state_.material = world_.material_named(name, call.place());
-}
-
-void Directives::texture(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  const std::string kind = quoted(call, "a type");
-  const std::string type = quoted(call, "a class");
-  ParameterList list = parameters(call);
-  if (kind != "float" && kind != "spectrum" && kind != "color")
-    throw Error(ErrorKind::input, fmt::format("textures of type {} are not known", shown(kind)),
-                "write float or spectrum", call.place());
-  world_.define_texture(name, kind == "float", type, std::move(list), state_);
-}
-
-void Directives::make_named_medium(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  ParameterList list = parameters(call);
-  const std::string type = list.text("type");
-  world_.define_medium(name, type, std::move(list), state_);
-}
-
-void Directives::medium_interface(const Call& call) {
-  MediumSides sides;
-  sides.inside = sides.outside = quoted(call, "a name");
-  if (call.tokens.peek().kind == TokenKind::quoted) sides.outside = quoted(call, "a name");
-  sides.is_given = true;
-  sides.place = call.place();
-  state_.media = std::move(sides);
-}
-
-void Directives::object_begin(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  world_.begin_object(name, call.place());
-  push(call, false);
-}
-
-void Directives::object_end(const Call& call) {
-  world_.end_object(call.place());
-  pop(call, false);
-}
-
-void Directives::object_instance(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  world_.add_instance(name, call.place(), state_);
-}
-
-void Directives::include(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  const SceneFiles::Opened file(files_, name, call.place());
-  run(file.source());
-}
-
-void Directives::import(const Call& call) {
-  const std::string name = quoted(call, "a name");
-  const SceneFiles::Opened file(files_, name, call.place());
-  const GraphicsState before = state_;
-  const size_t depth = saved_.size();
-  run(file.source());
-  if (saved_.size() != depth)
-    throw Error(ErrorKind::input, fmt::format("{} does not end what it begins", shown(name)),
-                "let every AttributeBegin have its AttributeEnd there", call.place());
-  state_ = before;
-}
+// pbrt-v3, which alone has WorldEnd, makes its camera here.
+void Directives::world_end(const Call&) { camera_medium_ = state_.media.outside; }
 
 void Directives::finish(const Place& place, Description& description) {
   if (!saved_.empty())

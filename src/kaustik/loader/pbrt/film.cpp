@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/pbrt/camera.h"
 
 namespace kaustik::pbrt {
@@ -46,7 +47,8 @@ std::shared_ptr<Object> make_filter(const ViewTools& tools, const ViewSettings& 
     if (filter.type != "gaussian")
       tools.deviations.approximated(
           "pixel filter",
-          fmt::format("there is no filter {}: it is 'gaussian'", shown(filter.type)), place);
+          fmt::format("there is no filter {}: it is 'gaussian'", shown(filter.type)), place,
+          did_you_mean(filter.type, {"box", "gaussian", "mitchell", "sinc", "triangle"}));
   }
   list.tell_unused("pixel filter", tools.deviations);
   return made;
@@ -88,8 +90,7 @@ void set_crop(Object& film, const ParameterList& list, const PictureSize& size) 
 
 /// Seconds that the shutter is open; of pbrt-v3, whose film is an image, they change no brightness.
 double exposure_seconds(const ViewTools& tools, const ViewSettings& settings) {
-  const bool is_old = settings.film && settings.film->type == "image";
-  if (!settings.camera || is_old) return 1;
+  if (!settings.camera || (settings.film && is_old_film(settings.film->type))) return 1;
   const ParameterList& camera = settings.camera->parameters;
   const double seconds = camera.number("shutterclose", 1) - camera.number("shutteropen", 0);
   if (seconds > 0) return seconds;

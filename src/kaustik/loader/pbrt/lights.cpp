@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/picture_textures.h"
 
@@ -18,13 +20,12 @@ using std::numbers::pi;
 double radians(double degrees) { return degrees * pi / 180; }
 
 /// One lamp as it is read.
-struct Lamp {
+struct Lamp : Subject {
   const LightTools& tools;
   const ParameterList& list;
   const Owner& owner;
   const Transform& to_world;
 
-  const Place& place() const { return list.place(); }
   /// Its light, white of luminance 1 where nothing is given, times `scale` and that factor.
   Value light(const char* name, double factor) const {
     Value value = tools.spectra.read(list, name, SpectrumUse::light, owner).value_or(1.0);
@@ -37,8 +38,22 @@ struct Lamp {
     const double wanted = list.number(name, -1);
     return wanted > 0 && of_one > 0 ? wanted / of_one : 1;
   }
-  void approximated(const std::string& what) const {
-    tools.deviations.approximated(owner.object, what, place());
+  /// By which pbrt-v3 multiplies a picture: the luminance of that light.
+  double factor_of_picture(const char* name) const {
+    const auto tint = tools.spectra.read(list, name, SpectrumUse::light, owner);
+    if (!tint) return 1;
+    if (const auto number = as_number(*tint)) return *number;
+    if (const auto* curve = std::get_if<SpectralCurve>(&*tint)) {
+      coloured(name);
+      return luminance(*curve);
+    }
+    const auto colour = as_colour(*tint);
+    if (!colour) return 1;
+    if (colour->r != colour->g || colour->r != colour->b) coloured(name);
+    return luminance(*colour);
+  }
+  void coloured(const char* name) const {
+    approximated(fmt::format("{} makes its picture brighter, but does not colour it", shown(name)));
   }
 };
 
@@ -70,7 +85,10 @@ std::shared_ptr<Object> make_spot(const Lamp& lamp) {
   set(*light, "intensity", lamp.light("I", lamp.factor_for("power", solid_angle)));
   set(*light, "cutoff_angle", cone);
   set(*light, "beam_width", cone - delta);
-  set(*light, "falloff", std::string("smooth"));
+  // pbrt-v3 falls by the fourth power of the step that is squared here.
+  const bool is_old = lamp.tools.is_old;
+  if (is_old && delta > 0) lamp.approximated("toward its edge it falls off less steeply");
+  set(*light, "falloff", std::string(is_old ? "square" : "smooth"));
   const Vec3d from = lamp.list.point("from").value_or(Vec3d(0, 0, 0));
   const Vec3d to = lamp.list.point("to").value_or(Vec3d(0, 0, 1));
   set(*light, "to_world", lamp.to_world * aimed(from, to, lamp.place()));
@@ -110,10 +128,10 @@ std::shared_ptr<Object> make_infinite(const Lamp& lamp) {
   const auto path = file.empty() ? std::nullopt : lamp.tools.files.find(file, place);
   if (!path || !is_readable_picture(path->string())) {
     if (!file.empty())
-      lamp.tools.deviations.missing(
-          lamp.owner.object,
+      lamp.deviations.missing(
+          lamp.object,
           fmt::format("picture {} is not there: light is alike from everywhere", shown(file)),
-          place);
+          place, where_files_lie);
     auto light = described("emitter", "constant", place);
     set(*light, "radiance", lamp.light("L", lamp.factor_for("illuminance", pi)));
     return light;
@@ -123,15 +141,10 @@ std::shared_ptr<Object> make_infinite(const Lamp& lamp) {
   double scale = lamp.list.number("scale", 1);
   if (lamp.list.number("illuminance", -1) > 0)
     lamp.approximated("'illuminance' has no effect: the picture shines with its own light");
-  if (is_old) {
-    const auto tint = lamp.tools.spectra.read(lamp.list, "L", SpectrumUse::light, lamp.owner);
-    const auto colour = tint ? as_colour(*tint) : std::nullopt;
-    if (colour) scale *= luminance(*colour);
-    if (colour && (colour->r != colour->g || colour->r != colour->b))
-      lamp.approximated("'L' makes its picture brighter, but does not colour it");
-  } else {
+  if (is_old)
+    scale *= lamp.factor_of_picture("L");
+  else
     set(*light, "projection", std::string("equalarea"));
-  }
   set(*light, "scale", std::max(scale, 0.0));
   set(*light, "to_world", lamp.to_world * (is_old ? old_from_y_up() : z_up_from_y_up()));
   return light;
@@ -140,7 +153,7 @@ std::shared_ptr<Object> make_infinite(const Lamp& lamp) {
 /// A picture thrown through a pinhole: a spot whose cone just holds it, dark beside it.
 std::shared_ptr<Object> make_projection(const Lamp& lamp) {
   const std::string file = lamp.list.text("filename", lamp.list.text("mapname"));
-  const double fov = std::clamp(lamp.list.number("fov", 90), 1.0, 170.0);
+  const double fov = std::clamp(lamp.list.number("fov", lamp.tools.is_old ? 45 : 90), 1.0, 170.0);
   auto light = described("emitter", "projector", lamp.place());
   auto picture = lamp.tools.textures.picture(file, false, lamp.owner, lamp.place());
   // Its upper edge is at +y of the lamp and its right edge at +x, which is the left of Kaustik's.
@@ -149,7 +162,7 @@ std::shared_ptr<Object> make_projection(const Lamp& lamp) {
   hold(*light, "irradiance", picture);
   set(*light, "fov", fov);
   set(*light, "fov_axis", std::string("smaller"));
-  set(*light, "scale", lamp.list.number("scale", 1) / pi);
+  set(*light, "scale", lamp.factor_of_picture("I") * lamp.list.number("scale", 1) / pi);
   set(*light, "to_world", lamp.to_world);
   if (lamp.list.number("power", -1) > 0)
     lamp.approximated("'power' has no effect: the picture shines with its own light");
@@ -163,28 +176,35 @@ std::shared_ptr<Object> make_goniometric(const Lamp& lamp) {
   return make_point(lamp);
 }
 
+using LightMaker = std::shared_ptr<Object> (*)(const Lamp&);
+
+const std::map<std::string_view, LightMaker>& light_makers() {
+  static const std::map<std::string_view, LightMaker> rows = {
+      {"distant", make_distant},   {"exinfinite", make_infinite}, {"goniometric", make_goniometric},
+      {"infinite", make_infinite}, {"point", make_point},         {"projection", make_projection},
+      {"spot", make_spot},
+  };
+  return rows;
+}
+
 }  // namespace
 
 std::shared_ptr<Object> make_light(const LightTools& tools, const std::string& type,
                                    const ParameterList& list, const Owner& owner,
                                    const Transform& to_world) {
-  const Lamp lamp{tools, list, owner, to_world};
+  const Lamp lamp{{tools.deviations, owner.object, list.place()}, tools, list, owner, to_world};
   list.accept({"nsamples", "samples"});
-  if (type == "point") return make_point(lamp);
-  if (type == "spot") return make_spot(lamp);
-  if (type == "distant") return make_distant(lamp);
-  if (type == "infinite" || type == "exinfinite") return make_infinite(lamp);
-  if (type == "projection") return make_projection(lamp);
-  if (type == "goniometric") return make_goniometric(lamp);
+  const auto maker = light_makers().find(type);
+  if (maker != light_makers().end()) return maker->second(lamp);
   tools.deviations.ignored(owner.object, fmt::format("there is no light {}", shown(type)),
-                           list.place());
+                           list.place(), did_you_mean(type, names_in(light_makers())));
   return nullptr;
 }
 
 std::shared_ptr<Object> make_area_light(const LightTools& tools, const AreaLight& light,
                                         const Owner& owner, std::optional<double> area) {
   const ParameterList& list = light.parameters;
-  const Lamp lamp{tools, list, owner, {}};
+  const Lamp lamp{{tools.deviations, owner.object, list.place()}, tools, list, owner, {}};
   if (light.type != "diffuse" && light.type != "area")
     lamp.approximated(fmt::format("it shines as one of type 'diffuse', not {}", shown(light.type)));
   list.accept({"nsamples", "samples"});

@@ -15,6 +15,7 @@ struct LightTools {
   Textures& textures;
   Spectra& spectra;
   Deviations& deviations;
+  bool is_old = false;  ///< pbrt-v3 or older
 };
 
 /// LightSource: an emitter at the place of the transform; null: it is left out, which is told.

@@ -47,8 +47,8 @@ void set_metal(Object& bsdf, const MaterialTools& tools, const std::string& pref
     return;
   }
   const std::string eta_name = prefix + "eta", k_name = prefix + "k";
-  const std::string eta_metal = metal_of(Spectra::name_of(tools.list(), eta_name));
-  const std::string k_metal = metal_of(Spectra::name_of(tools.list(), k_name));
+  const std::string eta_metal = tools.spectra.metal_in(tools.list(), eta_name, tools.owner());
+  const std::string k_metal = tools.spectra.metal_in(tools.list(), k_name, tools.owner());
   const bool has_eta = tools.list().has(eta_name), has_k = tools.list().has(k_name);
   std::string metal = !eta_metal.empty() ? eta_metal : k_metal;
   if (metal.empty() && (!has_eta || !has_k)) metal = "cu";

@@ -3,13 +3,70 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/pbrt/texture_mixes.h"
+#include "kaustik/loader/pbrt/upgrade.h"
 
 namespace kaustik::pbrt {
 namespace {
 
 constexpr int most_material_levels = 16;
+
+using MaterialMaker = MadeMaterial (*)(const MaterialTools&);
+
+/// Of types whose material is a bsdf alone.
+template <auto make_bsdf>
+MadeMaterial only_bsdf(const MaterialTools& tools) {
+  return {make_bsdf(tools), nullptr};
+}
+
+std::shared_ptr<Object> make_coated(const MaterialTools& tools) {
+  return make_coated_diffuse(tools);
+}
+
+std::shared_ptr<Object> matt_and_grey(const MaterialTools& tools) {
+  auto bsdf = described("bsdf", "diffuse", tools.place());
+  set(*bsdf, "reflectance", 0.5);
+  return two_sided(bsdf);
+}
+
+std::shared_ptr<Object> make_measured(const MaterialTools& tools) {
+  tools.list().accept({"filename", "bsdffile"});
+  tools.approximated("files of measured reflection are not read: it is matt and grey");
+  return matt_and_grey(tools);
+}
+
+/// All but those that are mixed of others, and those without a surface.
+const std::map<std::string_view, MaterialMaker>& material_makers() {
+  static const std::map<std::string_view, MaterialMaker> rows = {
+      {"coatedconductor", only_bsdf<make_coated_conductor>},
+      {"coateddiffuse", only_bsdf<make_coated>},
+      {"conductor", only_bsdf<make_conductor>},
+      {"dielectric", only_bsdf<make_dielectric>},
+      {"diffuse", only_bsdf<make_diffuse>},
+      {"diffusetransmission", only_bsdf<make_diffuse_transmission>},
+      {"disney", only_bsdf<make_disney>},
+      {"fourier", only_bsdf<make_measured>},
+      {"hair", only_bsdf<make_hair>},
+      {"measured", only_bsdf<make_measured>},
+      {"subsurface", make_subsurface},
+      {"thindielectric", only_bsdf<make_thin_dielectric>},
+  };
+  return rows;
+}
+
+MadeMaterial make_unknown(const MaterialTools& tools) {
+  std::vector<std::string> known = names_in(material_makers());
+  known.insert(known.end(), {"interface", "mix"});
+  known.insert(known.end(), old_materials.begin(), old_materials.end());
+  const std::string& type = tools.definition.type;
+  tools.deviations.approximated(
+      tools.object, fmt::format("there is no material {}: it is matt and grey", shown(type)),
+      tools.place(), did_you_mean(type, known));
+  return {matt_and_grey(tools), nullptr};
+}
 
 }  // namespace
 
@@ -32,7 +89,8 @@ const MadeMaterial& Materials::made(const MaterialReference& reference) {
   const auto known = by_name_.find(reference.name);
   if (known == by_name_.end()) {
     deviations_.missing(fmt::format("material {}", shown(reference.name)),
-                        "it is not defined: what has it is matt and grey", reference.place);
+                        "it is not defined: what has it is matt and grey", reference.place,
+                        did_you_mean(reference.name, names_in(by_name_)));
     return made(*entries_.front());
   }
   return made(*entries_[definition_before(known->second, reference.sequence, [&](size_t i) {
@@ -51,7 +109,12 @@ const MadeMaterial& Materials::made(Entry& entry) {
                 "let it name other materials", definition.parameters.place());
   entry.state = Entry::State::being_made;
   ++depth_;
-  entry.made = make(definition);
+  MappingSet mappings;
+  {
+    const Textures::Collecting collecting(textures_, mappings);
+    entry.made = make(definition);
+  }
+  entry.made.mappings.merge(mappings);
   --depth_;
   if (!definition.name.empty() && entry.made.bsdf->id.empty())
     entry.made.bsdf->id = ids_.unused(definition.name);
@@ -61,48 +124,21 @@ const MadeMaterial& Materials::made(Entry& entry) {
 }
 
 MadeMaterial Materials::make(const MaterialDefinition& definition) {
-  const MaterialTools tools{textures_, spectra_, deviations_, definition};
+  const MaterialTools tools{{deviations_, definition.owner.object, definition.parameters.place()},
+                            textures_,
+                            spectra_,
+                            definition};
   const std::string& type = definition.type;
-  const ParameterList& list = definition.parameters;
-  const Place& place = list.place();
   MadeMaterial result;
   if (type.empty() || type == "none" || type == "interface") {
-    result.bsdf = described("bsdf", "null", place);
+    result.bsdf = described("bsdf", "null", tools.place());
     result.is_interface = true;
-    list.accept({"displacement", "normalmap"});
+    tools.list().accept({"displacement", "normalmap"});
     return result;
   }
   if (type == "mix") return make_mix(definition);
-  if (type == "subsurface")
-    result = make_subsurface(tools);
-  else if (type == "diffuse")
-    result.bsdf = make_diffuse(tools);
-  else if (type == "coateddiffuse")
-    result.bsdf = make_coated_diffuse(tools);
-  else if (type == "conductor")
-    result.bsdf = make_conductor(tools);
-  else if (type == "coatedconductor")
-    result.bsdf = make_coated_conductor(tools);
-  else if (type == "dielectric")
-    result.bsdf = make_dielectric(tools);
-  else if (type == "thindielectric")
-    result.bsdf = make_thin_dielectric(tools);
-  else if (type == "diffusetransmission")
-    result.bsdf = make_diffuse_transmission(tools);
-  else if (type == "hair")
-    result.bsdf = make_hair(tools);
-  else if (type == "disney")
-    result.bsdf = make_disney(tools);
-  if (!result.bsdf) {
-    list.accept({"filename", "bsdffile"});
-    const bool is_measured = type == "measured" || type == "fourier";
-    tools.approximated(
-        is_measured ? std::string("files of measured reflection are not read: it is matt and grey")
-                    : fmt::format("there is no material {}: it is matt and grey", shown(type)));
-    result.bsdf = described("bsdf", "diffuse", place);
-    set(*result.bsdf, "reflectance", 0.5);
-    result.bsdf = two_sided(result.bsdf);
-  }
+  const auto maker = material_makers().find(type);
+  result = maker != material_makers().end() ? maker->second(tools) : make_unknown(tools);
   result.bsdf =
       without_mixes(with_relief(result.bsdf, definition), definition.owner.object, deviations_);
   return result;
@@ -124,7 +160,8 @@ std::shared_ptr<Object> Materials::with_relief(std::shared_ptr<Object> bsdf,
   if (!files_.find(normals, place)) {
     deviations_.missing(
         definition.owner.object,
-        fmt::format("normal map {} is not there: the surface is smooth", shown(normals)), place);
+        fmt::format("normal map {} is not there: the surface is smooth", shown(normals)), place,
+        where_files_lie);
     return bsdf;
   }
   auto relief = described("bsdf", "normalmap", place);
@@ -150,6 +187,7 @@ MadeMaterial Materials::make_mix(const MaterialDefinition& definition) {
     set(*result.bsdf, "weight", 0.5);
   for (const std::string& name : names->texts) {
     const MadeMaterial& part = made({0, name, definition.owner.sequence, names->place});
+    result.mappings.insert(part.mappings.begin(), part.mappings.end());
     if (name == names->texts.front() || !result.interior) result.interior = part.interior;
     hold(*result.bsdf, "", part.bsdf);
   }

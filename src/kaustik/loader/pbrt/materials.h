@@ -23,6 +23,7 @@ struct MadeMaterial {
   std::shared_ptr<Object> bsdf;
   std::shared_ptr<Object> interior;  ///< a medium that belongs to it; null: none
   bool is_interface = false;         ///< no surface is there
+  MappingSet mappings = {};          ///< what its textures lie by
 };
 
 /// Which material a shape has: one by its index, or by a name that may be defined later.
@@ -70,18 +71,13 @@ class Materials {
 };
 
 /// What makers of single materials work with.
-struct MaterialTools {
+struct MaterialTools : Subject {
   Textures& textures;
   Spectra& spectra;
-  Deviations& deviations;
   const MaterialDefinition& definition;
 
   const ParameterList& list() const { return definition.parameters; }
   const Owner& owner() const { return definition.owner; }
-  const Place& place() const { return definition.parameters.place(); }
-  void approximated(const std::string& what) const {
-    deviations.approximated(owner().object, what, place());
-  }
 };
 
 std::shared_ptr<Object> make_diffuse(const MaterialTools& tools);

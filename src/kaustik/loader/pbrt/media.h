@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "kaustik/base/transform.h"
 #include "kaustik/loader/pbrt/described.h"
@@ -21,6 +22,8 @@ struct MediumDefinition {
 
 /// What Kaustik calls a substance that pbrt knows the coefficients of; "": it knows none.
 std::string substance_named(const std::string& name);
+/// "did you mean …?", of the substances; "" where none is near.
+std::string substance_suggestion(const std::string& name);
 
 class Media {
  public:
@@ -37,6 +40,9 @@ class Media {
     std::shared_ptr<Object> made;
     bool is_made = false;
   };
+  using Maker = std::shared_ptr<Object> (Media::*)(const MediumDefinition&);
+  static const std::map<std::string_view, Maker>& makers();
+
   std::shared_ptr<Object> make(const MediumDefinition& definition);
   std::shared_ptr<Object> make_homogeneous(const MediumDefinition& definition);
   std::shared_ptr<Object> make_grid(const MediumDefinition& definition);
@@ -44,6 +50,7 @@ class Media {
   std::shared_ptr<Object> with_phase(std::shared_ptr<Object> medium,
                                      const MediumDefinition& definition);
   std::shared_ptr<Object> make_nanovdb(const MediumDefinition& definition);
+  std::shared_ptr<Object> make_cloud(const MediumDefinition& definition);
   Rgb coefficient(const MediumDefinition& definition, const char* name);
   /// sigma_s, and sigma_s + sigma_a.
   struct Coefficients {
@@ -60,8 +67,13 @@ class Media {
                                        std::span<const Number> density,
                                        const std::array<size_t, 3>& size,
                                        const Transform& to_world);
-  /// Of the unit cube to the box from p0 to p1.
-  static Transform box_to_world(const MediumDefinition& definition);
+  /// From p0 to p1, in the medium's space.
+  struct Box {
+    Vec3d low, size;
+    Transform to_world;  ///< of the unit cube
+  };
+  /// Throws Error(input) where it has no volume.
+  static Box box_of(const MediumDefinition& definition);
   std::shared_ptr<Object> grid_volume(const MediumDefinition& definition,
                                       std::vector<size_t> extents, std::vector<float> samples,
                                       const Transform& to_world);

@@ -116,7 +116,7 @@ MadeMaterial make_subsurface(const MaterialTools& tools) {
   if (!name.empty() && substance.empty())
     tools.deviations.missing(tools.owner().object,
                              fmt::format("there is no substance {}", shown(name)),
-                             list.place_of("name"));
+                             list.place_of("name"), substance_suggestion(name));
   const auto read = [&](const char* parameter) {
     return tools.spectra.read(list, parameter, SpectrumUse::coefficient, tools.owner());
   };

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/lower_case.h"
+
 namespace kaustik::pbrt {
 namespace {
 
 std::string extension_of(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return extension;
+  return lower_case(std::filesystem::path(file).extension().string());
 }
 
 /// "gamma 2.2".
@@ -46,7 +45,7 @@ std::shared_ptr<Object> make_bitmap(const PictureTexture& picture, SceneFiles& f
         object,
         fmt::format("picture {} {}", shown(picture.file),
                     path ? "is of a format that Kaustik does not read" : "is not there"),
-        place);
+        place, path ? "convert it to PNG or EXR" : where_files_lie);
     return missing_picture(place);
   }
   auto bitmap = described("texture", "bitmap", place);

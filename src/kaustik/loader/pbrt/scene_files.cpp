@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -108,9 +108,7 @@ SceneFiles::Opened::Opened(SceneFiles& files, const std::string& name, const Pla
     throw Error(ErrorKind::input, message, remedy, place);
   };
   const std::optional<fs::path> path = files.find(name, place);
-  if (!path)
-    refuse(fmt::format("there is no file {}", shown(name)),
-           "names are relative to the folder of the main scene file");
+  if (!path) refuse(fmt::format("there is no file {}", shown(name)), where_files_lie);
   if (std::ranges::find(files.open_, identity(*path)) != files.open_.end())
     refuse(fmt::format("{} includes itself", shown(path->string())),
            "remove one of the includes that lead round");

@@ -14,6 +14,10 @@
 
 namespace kaustik::pbrt {
 
+/// For remedies.
+inline constexpr const char* where_files_lie =
+    "names are relative to the folder of the main scene file";
+
 /// Finds and reads files. Names are relative to the folder of the main file, as in pbrt, wherever
 /// they are written. Keeps all texts until it ends, and counts what reading takes.
 class SceneFiles {

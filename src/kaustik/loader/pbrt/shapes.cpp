@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
+#include <map>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/object_parts.h"
 
 namespace kaustik::pbrt {
@@ -48,25 +48,6 @@ std::shared_ptr<std::vector<float>> per_vertex(const ShapeTools& tools, const ch
 Vec3d vertex(const std::vector<float>& positions, size_t index) {
   return {double(positions[3 * index]), double(positions[3 * index + 1]),
           double(positions[3 * index + 2])};
-}
-
-/// In the world; none of what is no mesh of buffers.
-std::vector<double> triangle_areas(const Object& shape, const Transform& to_world) {
-  const auto* positions = value_in<std::shared_ptr<const Array>>(shape, "positions");
-  const auto* faces = value_in<std::shared_ptr<const Array>>(shape, "faces");
-  if (!positions || !faces) return {};
-  const auto* points = reinterpret_cast<const float*>((*positions)->bytes().data());
-  const auto* corners = reinterpret_cast<const int32_t*>((*faces)->bytes().data());
-  const auto world = [&](int32_t index) {
-    const float* p = points + 3 * size_t(index);
-    return Vec3d(to_world.point({p[0], p[1], p[2]}));
-  };
-  std::vector<double> areas;
-  for (size_t i = 0; i + 2 < (*faces)->count(); i += 3) {
-    const Vec3d a = world(corners[i]);
-    areas.push_back(0.5 * (world(corners[i + 1]) - a).cross(world(corners[i + 2]) - a).length());
-  }
-  return areas;
 }
 
 /// Whether the PLY file gives normals: without them its faces are flat.
@@ -222,7 +203,7 @@ std::shared_ptr<Object> make_ply(const ShapeTools& tools) {
   if (!path) {
     tools.deviations.missing(tools.object,
                              fmt::format("mesh {} is not there: it is left out", shown(name)),
-                             tools.list.place_of("filename"));
+                             tools.list.place_of("filename"), where_files_lie);
     return nullptr;
   }
   if (tools.list.has("displacement"))
@@ -251,68 +232,55 @@ std::shared_ptr<Object> make_subdivided(const ShapeTools& tools) {
   return placed(shape_of(subdivided(*positions, *faces, levels), tools.place()), tools);
 }
 
+std::optional<MeshBuffers> buffers_of(const Object& shape) {
+  const auto floats = [&](const char* name) {
+    const auto* array = value_in<std::shared_ptr<const Array>>(shape, name);
+    return array ? std::span(reinterpret_cast<const float*>((*array)->bytes().data()),
+                             (*array)->count())
+                 : std::span<const float>();
+  };
+  const auto* faces = value_in<std::shared_ptr<const Array>>(shape, "faces");
+  if (shape.type != "mesh" || !faces) return std::nullopt;
+  return MeshBuffers{
+      floats("positions"),
+      floats("normals"),
+      floats("uv"),
+      {reinterpret_cast<const int32_t*>((*faces)->bytes().data()), (*faces)->count()}};
+}
+
+namespace {
+
+using ShapeMaker = std::shared_ptr<Object> (*)(const ShapeTools&);
+
+const std::map<std::string_view, ShapeMaker>& shape_makers() {
+  static const std::map<std::string_view, ShapeMaker> rows = {
+      {"bilinearmesh", make_bilinear_patches},
+      {"cone", make_cone},
+      {"cylinder", make_cylinder},
+      {"disk", make_disk},
+      {"heightfield", make_heightfield},
+      {"hyperboloid", make_hyperboloid},
+      {"loopsubdiv", make_subdivided},
+      {"paraboloid", make_paraboloid},
+      {"plymesh", make_ply},
+      {"sphere", make_sphere},
+      {"trianglemesh", make_triangles},
+  };
+  return rows;
+}
+
+}  // namespace
+
 std::shared_ptr<Object> make_shape(const ShapeTools& tools, const std::string& type) {
-  if (type == "plymesh") return make_ply(tools);
-  if (type == "trianglemesh") return make_triangles(tools);
-  if (type == "bilinearmesh") return make_bilinear_patches(tools);
-  if (type == "sphere") return make_sphere(tools);
-  if (type == "cylinder") return make_cylinder(tools);
-  if (type == "disk") return make_disk(tools);
-  if (type == "loopsubdiv") return make_subdivided(tools);
-  if (type == "cone") return make_cone(tools);
-  if (type == "paraboloid") return make_paraboloid(tools);
-  if (type == "hyperboloid") return make_hyperboloid(tools);
-  if (type == "heightfield") return make_heightfield(tools);
+  const auto maker = shape_makers().find(type);
+  if (maker != shape_makers().end()) return maker->second(tools);
   for (const Parameter& parameter : tools.list.all()) parameter.is_used = true;
+  std::vector<std::string> known = names_in(shape_makers());
+  known.emplace_back("curve");
   tools.deviations.missing(tools.object,
                            fmt::format("there is no shape {}: it is left out", shown(type)),
-                           tools.place());
+                           tools.place(), did_you_mean(type, known));
   return nullptr;
-}
-
-std::optional<double> area_of(const Object& shape) {
-  const auto* given = value_in<Transform>(shape, "to_world");
-  const Transform to_world = given ? *given : Transform();
-  const auto vector = [&](double x, double y, double z) {
-    return Vec3d(to_world.vector(Vec3f(float(x), float(y), float(z))));
-  };
-  const Vec3d x = vector(1, 0, 0), y = vector(0, 1, 0), z = vector(0, 0, 1);
-  const double radius = number_in(shape, "radius").value_or(1);
-  const auto are_alike = [](const Vec3d& a, const Vec3d& b) {
-    return std::fabs(a.length() - b.length()) <= 1e-6 * a.length() &&
-           std::fabs(a.dot(b)) <= 1e-6 * a.dot(a);
-  };
-  // Of bodies that are stretched or sheared there is no short formula.
-  const bool is_round = are_alike(x, y) && (shape.type != "sphere" || are_alike(x, z)) &&
-                        std::fabs(x.dot(z)) + std::fabs(y.dot(z)) <= 1e-6 * x.dot(x);
-  if (!is_round && (shape.type == "sphere" || shape.type == "cylinder")) return std::nullopt;
-  const double girth = radius * x.length();
-  if (shape.type == "sphere") return 4 * std::numbers::pi * girth * girth;
-  if (shape.type == "disk") return std::numbers::pi * x.cross(y).length();
-  if (shape.type == "cylinder") {
-    const auto *p0 = value_in<Vec3d>(shape, "p0"), *p1 = value_in<Vec3d>(shape, "p1");
-    return p0 && p1
-               ? std::optional(2 * std::numbers::pi * girth * std::fabs(p1->z - p0->z) * z.length())
-               : std::nullopt;
-  }
-  const std::vector<double> areas = triangle_areas(shape, to_world);
-  if (areas.empty()) return std::nullopt;
-  return std::accumulate(areas.begin(), areas.end(), 0.0);
-}
-
-bool has_even_parts(const Object& shape, size_t parts) {
-  const auto* given = value_in<Transform>(shape, "to_world");
-  const std::vector<double> areas = triangle_areas(shape, given ? *given : Transform());
-  if (parts == 0 || areas.size() % parts != 0) return parts <= 1;
-  const size_t each = areas.size() / parts;
-  double low = 0, high = 0;
-  for (size_t i = 0; i < areas.size(); i += each) {
-    const auto begin = areas.begin() + std::ptrdiff_t(i);
-    const double area = std::accumulate(begin, begin + std::ptrdiff_t(each), 0.0);
-    low = i == 0 ? area : std::min(low, area);
-    high = std::max(high, area);
-  }
-  return high - low <= 1e-3 * high;
 }
 
 }  // namespace kaustik::pbrt

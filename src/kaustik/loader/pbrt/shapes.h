@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,21 +30,14 @@ inline void append(std::vector<float>& numbers, const Vec3d& v) {
 }
 
 /// What makers of shapes work with.
-struct ShapeTools {
+struct ShapeTools : Subject {
   SceneFiles& files;
-  Deviations& deviations;
-  std::string object;  ///< "shape 'sphere'"
   const ParameterList& list;
   const Transform& to_world;
   bool is_flipped = false;   ///< ReverseOrientation
   bool is_textured = false;  ///< uv may matter
   /// How many shapes pbrt makes of it, each a lamp of its own: the triangles of a mesh, patches.
   mutable size_t lamps = 1;
-
-  const Place& place() const { return list.place(); }
-  void approximated(const std::string& what) const {
-    deviations.approximated(object, what, place());
-  }
 };
 
 /// All but curves. Null: it is left out, which is told.
@@ -90,10 +84,14 @@ std::shared_ptr<std::vector<float>> vertices_of(const ParameterList& list);
 std::shared_ptr<std::vector<int32_t>> indices_of(const ParameterList& list, size_t tuple,
                                                  size_t vertices);
 
-/// In the world; nothing: only the renderer can tell.
-std::optional<double> area_of(const Object& shape);
-/// Whether all of so many equal parts of a mesh's list of faces have the same area, about.
-bool has_even_parts(const Object& shape, size_t parts);
+/// Three numbers for each vertex and normal, two for its uv, three for each face. What the mesh
+/// does not have is empty.
+struct MeshBuffers {
+  std::span<const float> positions, normals, uv;
+  std::span<const int32_t> faces;
+};
+/// Those that a shape of type "mesh" holds; nothing: it is none.
+std::optional<MeshBuffers> buffers_of(const Object& shape);
 
 /// Loop's subdivision (Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987), with points
 /// and normals at their limits.

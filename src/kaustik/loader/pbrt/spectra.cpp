@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kaustik/base/color.h"
+#include "kaustik/loader/lower_case.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/spectrum_file.h"
 
@@ -49,10 +50,17 @@ Rgb colour_of_light(double x, double y) {
   return {std::max(0.0, colour.r), std::max(0.0, colour.g), std::max(0.0, colour.b)};
 }
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return text;
+/// Of Kaustik's; "": it is none.
+std::string known_metal(const std::string& name) {
+  const std::string metal = lower_case(name);
+  return std::ranges::find(metals, metal) != std::end(metals) ? metal : std::string();
+}
+
+/// That whose index of refraction or extinction is in a file of such a name: "metals/Au.eta.spd".
+std::string metal_of_file(const std::string& path) {
+  const std::string file = path.substr(path.find_last_of("/\\") + 1);
+  if (!file.ends_with(".eta.spd") && !file.ends_with(".k.spd")) return {};
+  return known_metal(file.substr(0, file.find('.')));
 }
 
 }  // namespace
@@ -65,8 +73,7 @@ std::optional<double> index_of_glass(const std::string& name) {
 
 std::string metal_of(const std::string& name) {
   if (!name.starts_with("metal-")) return {};
-  const std::string metal = in_small_letters(name.substr(6, name.rfind('-') - 6));
-  return std::ranges::find(metals, metal) != std::end(metals) ? metal : std::string();
+  return known_metal(name.substr(6, name.rfind('-') - 6));
 }
 
 double number_of_index(const Value& value) {
@@ -86,6 +93,19 @@ double number_of_index(const Value& value) {
 std::string Spectra::name_of(const ParameterList& list, std::string_view name) {
   const Parameter* parameter = list.find(name, {"spectrum"});
   return parameter && !parameter->texts.empty() ? parameter->texts.front() : std::string();
+}
+
+std::string Spectra::metal_in(const ParameterList& list, std::string_view name,
+                              const Owner& owner) {
+  const std::string given = name_of(list, name);
+  if (const std::string metal = metal_of(given); !metal.empty()) return metal;
+  const std::string metal = metal_of_file(given);
+  if (metal.empty() || files_.find(given, list.place_of(name))) return {};
+  deviations_.missing(
+      owner.object,
+      fmt::format("there is no spectrum {}: the metal '{}' stands for it", shown(given), metal),
+      list.place_of(name));
+  return metal;
 }
 
 std::optional<Value> Spectra::read(const ParameterList& list, std::string_view name,
@@ -203,6 +223,7 @@ const Spectra::FileCurve& Spectra::curve_in(const std::string& path) {
 Value Spectra::of_curve(SpectralCurve curve, SpectrumUse use, const Parameter& parameter,
                         const Owner& owner) {
   if (use == SpectrumUse::light) {
+    if (keeps_brightness_ && parameter.type == "spectrum") return curve;
     const double brightness = luminance(curve);
     Value value = std::move(curve);
     multiply_value(value, brightness > 0 ? 1 / brightness : 0);

@@ -16,7 +16,7 @@ namespace kaustik::pbrt {
 enum class SpectrumUse {
   reflectance,  ///< within 0 and 1
   coefficient,  ///< any number from 0: indices of refraction, absorption
-  light         ///< rgb counts as it is, all else is brought to the luminance 1
+  light         ///< rgb counts as it is, all else is brought to the luminance 1 (not in pbrt-v3)
 };
 
 /// Whose parameter is read: for what is told, and the colours that it is written in.
@@ -34,8 +34,12 @@ class Spectra {
   /// Throws Error(input) for values that are none.
   std::optional<Value> read(const ParameterList& list, std::string_view name, SpectrumUse use,
                             const Owner& owner);
+  /// As pbrt-v3: samples of light count as they are.
+  void keep_brightness_of_light() { keeps_brightness_ = true; }
   /// The name that a spectrum has instead of values, such as "metal-Cu-eta"; "" if it has none.
   static std::string name_of(const ParameterList& list, std::string_view name);
+  /// metal_of() that name; also of a file that is not there ("metals/Au.eta.spd"), which is told.
+  std::string metal_in(const ParameterList& list, std::string_view name, const Owner& owner);
 
  private:
   Value of_parameter(const Parameter& parameter, SpectrumUse use, const Owner& owner);
@@ -55,6 +59,7 @@ class Spectra {
   SceneFiles& files_;
   Deviations& deviations_;
   std::map<std::string, FileCurve> file_curves_;
+  bool keeps_brightness_ = false;
 };
 
 /// Index of refraction of a named glass at 587.6 nm, such as "glass-BK7"; nothing: there is none.

@@ -5,56 +5,36 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kaustik/base/color.h"
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/picture_textures.h"
-#include "kaustik/loader/pbrt/texture_mixes.h"
 
 namespace kaustik::pbrt {
 namespace {
 
 constexpr int most_levels = 32;
 
-/// A curve as the colour that it has in white light.
-Rgb colour_of(const Value& value) {
-  if (const auto* curve = std::get_if<SpectralCurve>(&value)) return rgb_from_reflectance(*curve);
-  return as_colour(value).value_or(Rgb{1, 1, 1});
-}
-
-Input times(Input input, const Value& factor, const Place& place) {
-  if (input.texture) {
-    auto scaled = described("texture", "scale", place);
-    set(*scaled, "scale", factor);
-    hold(*scaled, "value", input.texture);
-    return {{}, scaled};
-  }
-  if (const auto number = as_number(factor)) {
-    multiply_value(*input.value, *number);
-    return input;
-  }
-  const Rgb a = colour_of(*input.value), b = colour_of(factor);
-  return {Value(Rgb{a.r * b.r, a.g * b.g, a.b * b.b}), nullptr};
-}
-
 }  // namespace
 
 void Textures::define(TextureDefinition definition) {
-  std::vector<size_t>& known = by_name_[{definition.name, definition.is_float}];
-  known.push_back(entries_.size());
+  by_name_[definition.name][definition.is_float].push_back(entries_.size());
   entries_.push_back(std::make_unique<Entry>(Entry{std::move(definition), {}, {}}));
 }
 
 Textures::Entry* Textures::find(const std::string& name, bool is_float, size_t sequence) {
-  const auto known = by_name_.find({name, is_float});
-  if (known == by_name_.end()) return nullptr;
+  const auto known = by_name_.find(name);
+  if (known == by_name_.end() || known->second[is_float].empty()) return nullptr;
   return entries_[definition_before(
-                      known->second, sequence,
+                      known->second[is_float], sequence,
                       [&](size_t i) { return entries_[i]->definition.owner.sequence; })]
       .get();
 }
 
 const Input& Textures::made(Entry& entry) {
-  if (entry.state == Entry::State::made) return entry.made;
+  if (entry.state == Entry::State::made) {
+    for (const size_t mapping : entry.mappings) laid_by(mapping);
+    return entry.made;
+  }
   const TextureDefinition& definition = entry.definition;
   if (entry.state == Entry::State::being_made || depth_ >= most_levels)
     throw Error(ErrorKind::input,
@@ -64,7 +44,11 @@ const Input& Textures::made(Entry& entry) {
                 "let it name other textures", definition.parameters.place());
   entry.state = Entry::State::being_made;
   ++depth_;
-  entry.made = make(definition);
+  {
+    const Collecting collecting(*this, entry.mappings);
+    entry.made = make(definition);
+  }
+  for (const size_t mapping : entry.mappings) laid_by(mapping);
   --depth_;
   if (!entry.made.is_given()) entry.made.value = 0.5;
   entry.state = Entry::State::made;
@@ -81,8 +65,12 @@ Input Textures::named(const Parameter& parameter, bool is_float, const Owner& ow
   const std::string name = parameter.texts.empty() ? std::string() : parameter.texts.front();
   Entry* entry = is_float ? find_number(name, owner.sequence) : find(name, false, owner.sequence);
   if (entry) return made(*entry);
-  deviations_.missing(owner.object, fmt::format("there is no texture {}", shown(name)),
-                      parameter.place);
+  deviations_.missing(owner.object,
+                      fmt::format("there is no texture {}{}", shown(name),
+                                  by_name_.contains(name) ? " of colours, but one of numbers" : ""),
+                      parameter.place,
+                      by_name_.contains(name) ? "write \"spectrum\" behind its name"
+                                              : did_you_mean(name, names_in(by_name_)));
   return is_float ? Input{0.5, nullptr} : Input{{}, missing_picture(parameter.place)};
 }
 
@@ -124,181 +112,6 @@ Input Textures::root_of(Entry& entry) {
       return {std::sqrt(std::max(0.0, *number)), nullptr};
   if (definition.type == "imagemap") return make_picture(definition, 0.5);
   return {};
-}
-
-Input Textures::part(const TextureDefinition& definition, const char* name, double otherwise) {
-  const Input given = definition.is_float ? number(definition.parameters, name, definition.owner)
-                                          : colour(definition.parameters, name, definition.owner);
-  return given.is_given() ? given : Input{otherwise, nullptr};
-}
-
-Input Textures::make(const TextureDefinition& definition) {
-  const std::string& type = definition.type;
-  if (type == "constant") return part(definition, "value", 1);
-  if (type == "imagemap") return make_picture(definition, 1);
-  if (type == "scale") return make_scale(definition);
-  if (type == "mix") return make_mix(definition, false);
-  if (type == "directionmix") return make_mix(definition, true);
-  if (type == "checkerboard") return make_checkerboard(definition);
-  if (type == "bilerp") return make_bilinear(definition);
-  if (type == "fbm" || type == "wrinkled" || type == "windy" || type == "marble")
-    return make_noise(definition);
-  const Place& place = definition.parameters.place();
-  if (type == "dots") {
-    deviations_.approximated(definition.owner.object, "dots are left out: all is as outside",
-                             place);
-    definition.parameters.accept({"inside", "mapping", "uscale", "vscale", "udelta", "vdelta"});
-    return part(definition, "outside", 0);
-  }
-  deviations_.missing(definition.owner.object,
-                      type == "ptex" ? std::string("Ptex files can't be read: it is grey")
-                                     : fmt::format("there is no texture of type {}", shown(type)),
-                      place);
-  definition.parameters.accept({"filename", "encoding", "scale"});
-  return {0.5, nullptr};
-}
-
-Input Textures::make_scale(const TextureDefinition& definition) {
-  const Place& place = definition.parameters.place();
-  // v3 calls the two tex1 and tex2.
-  const bool is_old = definition.parameters.has("tex1") || definition.parameters.has("tex2");
-  Input value = part(definition, is_old ? "tex1" : "tex", 1);
-  Input factor = is_old ? part(definition, "tex2", 1)
-                        : number(definition.parameters, "scale", definition.owner);
-  if (!factor.is_given()) factor.value = 1.0;
-  if (value.value && factor.texture) std::swap(value, factor);
-  if (factor.value) return times(value, *factor.value, place);
-  if (is_old && !definition.is_float)
-    deviations_.approximated(definition.owner.object,
-                             "of its two textures the second makes the first one darker, but does "
-                             "not colour it",
-                             place);
-  return mixed({0.0, nullptr}, value, factor, place);
-}
-
-Input Textures::make_mix(const TextureDefinition& definition, bool of_directions) {
-  const Place& place = definition.parameters.place();
-  const Input first = part(definition, "tex1", 0), second = part(definition, "tex2", 1);
-  Input amount = number(definition.parameters, "amount", definition.owner);
-  if (of_directions) {
-    definition.parameters.accept({"dir"});
-    deviations_.approximated(definition.owner.object,
-                             "its two textures are mixed evenly, whatever the direction", place);
-    amount = {0.5, nullptr};
-  }
-  if (!amount.is_given()) amount.value = 0.5;
-  return mixed(first, second, amount, place);
-}
-
-Input Textures::make_checkerboard(const TextureDefinition& definition) {
-  const Place& place = definition.parameters.place();
-  const Input first = part(definition, "tex1", 1), second = part(definition, "tex2", 0);
-  if (definition.parameters.integer("dimension", 2) == 3)
-    deviations_.approximated(definition.owner.object,
-                             "its cubes in space are squares on the surface", place);
-  definition.parameters.accept({"aamode"});
-  auto board = described("texture", "checkerboard", place);
-  set(*board, "color0", first);
-  set(*board, "color1", second);
-  // Ours has two squares in a unit.
-  set(*board, "to_uv", Transform::scale({0.5, 0.5, 1}) * mapping(definition));
-  return {{}, board};
-}
-
-Input Textures::make_bilinear(const TextureDefinition& definition) {
-  const Place& place = definition.parameters.place();
-  std::vector<float> pixels;
-  // The rows of a picture begin at its upper edge, where v is 1.
-  for (const auto& [name, otherwise] :
-       {std::pair("v01", 1.0), {"v11", 1.0}, {"v00", 0.0}, {"v10", 0.0}}) {
-    const Input corner = part(definition, name, otherwise);
-    const auto colour = corner.value ? as_colour(*corner.value) : std::nullopt;
-    if (!colour)
-      deviations_.approximated(definition.owner.object, "a corner that is no plain colour is grey",
-                               place);
-    const Rgb c = colour.value_or(Rgb{0.5, 0.5, 0.5});
-    pixels.insert(pixels.end(), {float(c.r), float(c.g), float(c.b)});
-  }
-  auto corners = described("texture", "bitmap", place);
-  set(*corners, "data", Value(Array::of<float>({2, 2, 3}, std::move(pixels))));
-  set(*corners, "raw", true);
-  set(*corners, "wrap_mode", std::string("clamp"));
-  // From the middle of a pixel to that of the next.
-  set(*corners, "to_uv",
-      Transform::translate({0.25, 0.75, 0}) * Transform::scale({0.5, -0.5, 1}) *
-          mapping(definition));
-  return {{}, corners};
-}
-
-Input Textures::make_noise(const TextureDefinition& definition) {
-  const ParameterList& list = definition.parameters;
-  const Place& place = list.place();
-  deviations_.approximated(
-      definition.owner.object,
-      fmt::format("the noise of {} is Kaustik's own, of about its size", shown(definition.type)),
-      place);
-  const bool is_marble = definition.type == "marble" && !definition.is_float;
-  auto noise = described("texture", is_marble ? "marble" : "noise", place);
-  const double scale = list.number("scale", 1);
-  list.accept({"variation", "mapping"});
-  set(*noise, "scale", std::clamp(1 / std::max(scale, 1e-6), 1e-6, 1e6));
-  const int octaves = std::clamp(list.integer("octaves", 8), 1, 16);
-  const double roughness = std::clamp(list.number("roughness", 0.5), 0.0, 1.0);
-  if (!is_marble) {
-    set(*noise, "octaves", int64_t{octaves});
-    set(*noise, "roughness", roughness);
-  }
-  return {{}, noise};
-}
-
-Input Textures::make_picture(const TextureDefinition& definition, double power) {
-  const ParameterList& list = definition.parameters;
-  list.accept({"maxanisotropy", "trilinear", "filter"});
-  PictureTexture wanted;
-  wanted.file = list.text("filename");
-  wanted.filter = list.text("filter", "bilinear");
-  wanted.wrap = list.text("wrap", "repeat");
-  wanted.encoding = list.text("encoding");
-  // v3: whether it is encoded.
-  if (list.has("gamma")) wanted.encoding = list.flag("gamma", true) ? "sRGB" : "linear";
-  wanted.mapping = mapping(definition);
-  wanted.power = power;
-  wanted.is_number = definition.is_float;
-  wanted.is_inverted = list.flag("invert", false);
-  const std::shared_ptr<Object> bitmap =
-      make_bitmap(wanted, files_, deviations_, definition.owner.object, list.place());
-  const double scale = list.number("scale", 1);
-  if (scale == 1) return {{}, bitmap};
-  if (wanted.is_inverted)
-    deviations_.approximated(definition.owner.object, "it is inverted, and then scaled",
-                             list.place_of("invert"));
-  return times({{}, bitmap}, std::clamp(std::pow(std::max(scale, 0.0), power), 0.0, 1e6),
-               list.place());
-}
-
-std::shared_ptr<Object> Textures::picture(const std::string& file, bool raw, const Owner& owner,
-                                          const Place& place) {
-  PictureTexture wanted;
-  wanted.file = file;
-  wanted.is_raw = raw;
-  return make_bitmap(wanted, files_, deviations_, owner.object, place);
-}
-
-Transform Textures::mapping(const TextureDefinition& definition) {
-  const ParameterList& list = definition.parameters;
-  const std::string kind = list.text("mapping", "uv");
-  const double su = list.number("uscale", 1), sv = list.number("vscale", 1);
-  const double du = list.number("udelta", 0), dv = list.number("vdelta", 0);
-  if (kind != "uv") {
-    list.accept({"v1", "v2"});
-    deviations_.approximated(
-        definition.owner.object,
-        fmt::format("it lies by the surface's uv, not by mapping {}", shown(kind)),
-        list.place_of("mapping"));
-    return {};
-  }
-  const double rows[4][4] = {{su, 0, 0, du}, {0, sv, 0, dv}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-  return su != 0 && sv != 0 ? Transform(rows) : Transform::collapsing(rows);
 }
 
 }  // namespace kaustik::pbrt

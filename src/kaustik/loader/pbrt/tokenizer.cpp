@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "kaustik/base/decimal.h"
+#include "kaustik/base/memory.h"
 #include "kaustik/base/to_integer.h"
 
 namespace kaustik::pbrt {
@@ -110,7 +111,7 @@ void Tokenizer::take_numbers(std::vector<Number>& numbers) {
     const void* const close = std::memchr(at_, ']', size_t(end_ - at_));
     next_close_ = close ? static_cast<const char*>(close) : end_;
     if (close && next_close_ - at_ > long_list)
-      numbers.reserve(size_t((next_close_ - at_) / usual_bytes_of_number));
+      reserve_large(numbers, size_t((next_close_ - at_) / usual_bytes_of_number));
   }
   for (;;) {
     skip_blanks();

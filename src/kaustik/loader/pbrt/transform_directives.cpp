@@ -90,9 +90,10 @@ void Directives::rotate(const Call& call) {
   double v[4];
   read_numbers(call, v, 4);
   const Vec3d axis(v[1], v[2], v[3]);
-  if (!(axis.length() > 0))
-    throw Error(ErrorKind::input, "Rotate has no axis", "give a vector that is not zero",
-                call.place());
+  if (!(axis.length() > 0)) {
+    deviations_.ignored("Rotate", "it turns nothing: its axis is zero", call.place());
+    return;
+  }
   apply(Transform::rotate(axis, v[0]));
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "kaustik/loader/pbrt/colour_space.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -34,16 +37,46 @@ void add_number(ParameterList& list, std::string_view name, double value) {
   list.all().push_back(std::move(parameter));
 }
 
-/// What v3 took as the default, where neither roughness is given.
-void add_roughness(ParameterList& list, double value) {
-  if (!parameter_named(list, "uroughness") && !parameter_named(list, "vroughness"))
-    add_number(list, "roughness", value);
-}
-
 bool is_zero(const Parameter* parameter) {
   return parameter && !parameter->numbers.empty() &&
          std::ranges::all_of(parameter->numbers, [](double v) { return v == 0; });
 }
+
+/// The slope of facets that pbrt-v3 and Beckmann's distribution have for a roughness
+/// (core/microfacet.h, RoughnessToAlpha): a polynomial of its logarithm.
+double slope_of_roughness(double roughness) {
+  const double x = std::log(std::max(roughness, 1e-3));
+  return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
+}
+
+/// Whether v3 takes it as smooth where it is not rough at all.
+bool has_smooth_kind(const std::string& type) {
+  return type == "glass" || type == "subsurface" || type == "kdsubsurface";
+}
+
+/// Roughness of v4, whose root is the slope, in place of that of v3.
+void upgrade_roughness(const std::string& type, ParameterList& list, const std::string& object,
+                       Deviations& deviations) {
+  if (!list.flag("remaproughness", true)) return;
+  std::vector<Parameter*> given;
+  for (const std::string_view name : {"roughness", "uroughness", "vroughness"})
+    if (Parameter* parameter = parameter_named(list, name)) given.push_back(parameter);
+  if (has_smooth_kind(type) && std::ranges::all_of(given, [](auto* p) { return is_zero(p); }))
+    return;
+  for (Parameter* parameter : given) {
+    if (parameter->type == "texture")
+      deviations.approximated(
+          object,
+          fmt::format("the slopes of its facets are the roots of {}, as in pbrt-v4, where "
+                      "those of pbrt-v3 are steeper",
+                      shown(parameter->name)),
+          parameter->place);
+    for (double& number : parameter->numbers) number = std::pow(slope_of_roughness(number), 2);
+  }
+}
+
+/// What v3 took as the default, of what is not given along u or v, too.
+void add_roughness(ParameterList& list, double value) { add_number(list, "roughness", value); }
 
 /// A colour as the mean of its parts.
 void make_number(ParameterList& list, std::string_view name, const std::string& object,
@@ -108,10 +141,12 @@ void upgrade_mix(ParameterList& list, const std::string& object, Deviations& dev
   make_number(list, "amount", object, deviations);
 }
 
-}  // namespace
+bool is_of_old(const std::string& type) {
+  return std::ranges::find(old_materials, type) != old_materials.end();
+}
 
-std::string upgraded_material(const std::string& type, ParameterList& list,
-                              const std::string& object, Deviations& deviations) {
+std::string upgraded_type(const std::string& type, ParameterList& list, const std::string& object,
+                          Deviations& deviations) {
   rename(list, "bumpmap", "displacement");
   if (type == "mix") {
     upgrade_mix(list, object, deviations);
@@ -121,10 +156,7 @@ std::string upgraded_material(const std::string& type, ParameterList& list,
     rename(list, "index", "eta");
     return type;
   }
-  const bool is_old = type == "matte" || type == "plastic" || type == "substrate" ||
-                      type == "uber" || type == "translucent" || type == "kdsubsurface" ||
-                      type == "mirror" || type == "glass" || type == "metal";
-  if (!is_old) return type;
+  if (!is_of_old(type)) return type;
   rename(list, type == "mirror" ? "Kr" : "Kd", "reflectance");
   if (type == "matte") {
     if (const Parameter* sigma = parameter_named(list, "sigma"); sigma && !is_zero(sigma))
@@ -157,12 +189,24 @@ std::string upgraded_material(const std::string& type, ParameterList& list,
   return "conductor";
 }
 
+}  // namespace
+
+std::string upgraded_material(const std::string& type, ParameterList& list,
+                              const std::string& object, Deviations& deviations, bool is_old_file) {
+  std::string meant = upgraded_type(type, list, object, deviations);
+  if (is_of_old(type) || (is_old_file && type == "subsurface"))
+    upgrade_roughness(type, list, object, deviations);
+  return meant;
+}
+
 void upgrade_light(ParameterList& list, const std::string& object, Deviations& deviations) {
   make_number(list, "scale", object, deviations);
   for (const std::string_view name : {"L", "I"}) {
     Parameter* light = parameter_named(list, name);
     if (!light || light->type != "blackbody" || light->numbers.size() != 2) continue;
-    const double factor = light->numbers.back();
+    // v3 gives its curve the maximum 1, v4 the luminance 1.
+    const double factor =
+        light->numbers.back() * luminance(blackbody_curve(light->numbers.front()));
     light->numbers.pop_back();
     add_number(list, "scale", 1);
     if (Parameter* scale = parameter_named(list, "scale"); !scale->numbers.empty())

@@ -46,6 +46,11 @@ World::World(SceneFiles& files, Deviations& deviations)
       media_(files, spectra_, ids_, deviations),
       textured_materials_{false} {}
 
+void World::become_old() {
+  is_old_ = true;
+  spectra_.keep_brightness_of_light();
+}
+
 Owner World::owner(std::string object, const GraphicsState& state) const {
   return {std::move(object), state.colour_space, sequence_};
 }
@@ -69,7 +74,7 @@ void World::define_texture(const std::string& name, bool is_float, const std::st
   add_defaults(list, state, AttributeKind::texture);
   Owner by = owner(object_name("texture", name), state);
   ++sequence_;
-  textures_.define({name, type, is_float, std::move(list), std::move(by)});
+  textures_.define({name, type, is_float, std::move(list), std::move(by), state.transform.start});
 }
 
 size_t World::define_material(const std::string& name, const std::string& type, ParameterList list,
@@ -80,7 +85,7 @@ size_t World::define_material(const std::string& name, const std::string& type, 
             state);
   ++sequence_;
   const bool is_textured = names_textures(list);
-  const std::string meant = upgraded_material(type, list, by.object, deviations_);
+  const std::string meant = upgraded_material(type, list, by.object, deviations_, is_old_);
   textured_materials_.push_back(is_textured);
   if (!name.empty()) textured_names_[name] = textured_names_[name] || is_textured;
   return materials_.define({name, meant, std::move(list), std::move(by)});
@@ -116,7 +121,8 @@ void World::add_light(const std::string& type, ParameterList list, const Graphic
                              list.place());
     return;
   }
-  auto emitter = make_light({files_, textures_, spectra_, deviations_}, type, list, by, to_world);
+  auto emitter =
+      make_light({files_, textures_, spectra_, deviations_, is_old_}, type, list, by, to_world);
   if (!emitter) return;
   list.tell_unused(by.object, deviations_);
   const bool has_place =
@@ -140,8 +146,12 @@ void World::add_shape(const std::string& type, ParameterList list, const Graphic
   const Transform to_world = resting(state.transform, pending.object, list.place());
   const bool is_textured = may_be_textured(state.material) || !pending.alpha.empty() ||
                            (pending.light && pending.light->parameters.has("filename"));
-  const ShapeTools tools{
-      files_, deviations_, pending.object, list, to_world, state.reverses_orientation, is_textured};
+  const ShapeTools tools{{deviations_, pending.object, list.place()},
+                         files_,
+                         list,
+                         to_world,
+                         state.reverses_orientation,
+                         is_textured};
   pending.is_flipped = state.reverses_orientation;
   if (type == "curve") {
     add_curve_of(tools, std::move(pending));

@@ -20,6 +20,9 @@ class World {
  public:
   World(SceneFiles& files, Deviations& deviations);
 
+  /// What follows is of pbrt-v3 or older, which means other things by words that v4 has, too.
+  void become_old();
+
   void define_texture(const std::string& name, bool is_float, const std::string& type,
                       ParameterList list, const GraphicsState& state);
   /// Its index.
@@ -77,6 +80,8 @@ class World {
                   bool is_hidden);
   std::shared_ptr<Object> masked(const std::shared_ptr<Object>& bsdf, const Input& alpha);
   std::shared_ptr<Object> emitter_of(const PendingShape& pending);
+  /// Puts the uv of its textures' mapping in place of the shape's own, or tells why not.
+  void lay_textures(const PendingShape& pending, const MappingSet& mappings, bool is_in_group);
   void give_media(PendingShape& pending, const MadeMaterial& material);
   void finish_instances(Object& scene);
 
@@ -87,6 +92,7 @@ class World {
   Ids ids_;
   Materials materials_;
   Media media_;
+  bool is_old_ = false;  ///< become_old()
   size_t sequence_ = 1;  ///< how many things were defined
   std::vector<bool> textured_materials_;
   std::map<std::string, bool> textured_names_;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/object_parts.h"
 #include "kaustik/loader/pbrt/lights.h"
+#include "kaustik/loader/pbrt/shape_areas.h"
 #include "kaustik/loader/pbrt/texture_mixes.h"
 #include "kaustik/loader/pbrt/world.h"
 
@@ -83,6 +85,32 @@ void World::give_media(PendingShape& pending, const MadeMaterial& material) {
   if (outside) hold(*pending.shape, "exterior", outside);
 }
 
+void World::lay_textures(const PendingShape& pending, const MappingSet& mappings,
+                         bool is_in_group) {
+  for (const size_t index : mappings) {
+    if (index == SurfaceMappings::by_uv) continue;
+    const SurfaceMapping& mapping = textures_.mappings().at(index);
+    const char* reason = nullptr;
+    if (mappings.size() > 1)
+      reason = "other textures of the surface lie otherwise";
+    else if (is_in_group)
+      reason = "it is one of an object that is placed";
+    else if (!lay_by(mapping, *pending.shape))
+      reason = "the reader does not have its vertices";
+    if (reason)
+      deviations_.approximated(mapping.object,
+                               fmt::format("on {} it lies by uv, not by mapping {}: {}",
+                                           pending.object, shown(mapping.name), reason),
+                               mapping.place);
+    else if (mapping.kind != MappingKind::planar)
+      deviations_.approximated(
+          mapping.object,
+          fmt::format("its mapping {} is exact at vertices, and even between them",
+                      shown(mapping.name)),
+          mapping.place);
+  }
+}
+
 std::shared_ptr<Object> World::finished(PendingShape& pending, bool is_in_group) {
   if (pending.curves) {
     if (pending.curves->faces.empty()) return nullptr;
@@ -91,6 +119,10 @@ std::shared_ptr<Object> World::finished(PendingShape& pending, bool is_in_group)
     pending.shape = mesh;
   }
   const MadeMaterial& material = materials_.made(pending.material);
+  MappingSet mappings = material.mappings;
+  if (pending.light && pending.light->parameters.has("filename"))
+    mappings.insert(SurfaceMappings::by_uv);
+  const Textures::Collecting collecting(textures_, mappings);
   const Input alpha = textures_.number(pending.alpha, "alpha", pending.owner);
   const auto share = alpha.value ? as_number(*alpha.value) : std::nullopt;
   const bool is_gone = share && *share <= 0;
@@ -101,6 +133,7 @@ std::shared_ptr<Object> World::finished(PendingShape& pending, bool is_in_group)
   else if (!material.is_interface && alpha.is_given() && !(share && *share >= 1))
     bsdf = masked(bsdf, alpha);
   hold(*pending.shape, "", bsdf);
+  lay_textures(pending, mappings, is_in_group);
   give_light(pending, material, is_in_group, is_gone);
   give_media(pending, material);
   return pending.shape;
@@ -114,7 +147,8 @@ void World::finish_instances(Object& scene) {
       const auto shapes = objects_.find(instance.group);
       if (shapes == objects_.end()) {
         deviations_.missing(fmt::format("object {}", shown(instance.group)),
-                            "it is not defined: it is left out", instance.place);
+                            "it is not defined: it is left out", instance.place,
+                            did_you_mean(instance.group, names_in(objects_)));
         continue;
       }
       auto group = described("shape", "shapegroup", instance.place);

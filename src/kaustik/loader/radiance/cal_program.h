@@ -19,6 +19,12 @@ class CalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What it needs is in a file that is not there.
+class MissingFile : public CalError {
+ public:
+  using CalError::CalError;
+};
+
 /// A node of an expression. `symbol` is a name's number; children are the operands.
 struct CalNode {
   enum class Op : uint8_t { number, name, call, add, subtract, multiply, divide, power, negate };

@@ -77,6 +77,44 @@ class CurveFunctions {
   std::optional<CalEvaluator> evaluator_;
 };
 
+/// What all of these programs begin by: a modifier, a name, functions, numbers of segments,
+/// options.
+struct CurveCommand {
+  /// Functions of those names and parameters; so many numbers of segments; options that set a flag.
+  CurveCommand(const Words& words, const GeneratorContext& context, const char* usage,
+               std::initializer_list<const char*> names, const char* parameters, size_t counts,
+               std::initializer_list<std::pair<std::string_view, bool*>> flags)
+      : arguments(words, usage, context.place),
+        functions(arguments, context),
+        modifier(arguments.text()),
+        id(arguments.text()) {
+    for (const char* name : names) functions.define(name, parameters, arguments.text());
+    while (counts_.size() < counts) counts_.push_back(arguments.text());
+    while (!arguments.at_end()) {
+      const std::string option = arguments.text();
+      const auto flag =
+          std::ranges::find(flags, option, &std::pair<std::string_view, bool*>::first);
+      if (flag != flags.end())
+        *flag->second = true;
+      else if (!functions.take_option(option))
+        arguments.refuse(
+            fmt::format("'{}' has no option '{}'", arguments.name(), option.substr(0, 40)));
+    }
+    functions.ready();
+  }
+  CurveCommand(const CurveCommand&) = delete;
+  CurveCommand& operator=(const CurveCommand&) = delete;
+
+  size_t count(size_t which, size_t most) { return functions.count_of(counts_[which], most); }
+
+  CommandArguments arguments;
+  CurveFunctions functions;
+  std::string modifier, id;
+
+ private:
+  std::vector<std::string> counts_;
+};
+
 /// One segment of a body of revolution about z, from (z0, r0) to (z1, r1); its front is to the
 /// outside where z grows.
 void add_revolved(PrimitiveWriter& writer, const std::string& modifier, const std::string& id,
@@ -154,31 +192,23 @@ void add_normals(std::vector<std::vector<GridPoint>>& grid) {
 }  // namespace
 
 std::string generate_revolution(const Words& words, const GeneratorContext& context) {
-  CommandArguments arguments(
-      words, "genrev material name 'z(t)' 'r(t)' segments [-e expression] [-f file] [-s]",
-      context.place);
-  CurveFunctions functions(arguments, context);
-  const std::string modifier = arguments.text(), id = arguments.text();
-  functions.define("Z`SYS", "t", arguments.text());
-  functions.define("R`SYS", "t", arguments.text());
-  const std::string count = arguments.text();
-  while (!arguments.at_end()) {
-    const std::string option = arguments.text();
-    if (option == "-s")
-      context.deviations.approximated(fmt::format("genrev '{}'", id),
-                                      "its segments are smooth around, but not along it",
-                                      context.place);
-    else if (!functions.take_option(option))
-      arguments.refuse(fmt::format("'genrev' has no option '{}'", option.substr(0, 40)));
-  }
-  functions.ready();
-  const size_t segments = functions.count_of(count, most_segments);
+  bool is_smooth = false;
+  CurveCommand command(words, context,
+                       "genrev material name 'z(t)' 'r(t)' segments [-e expression] [-f file] [-s]",
+                       {"Z`SYS", "R`SYS"}, "t", 1, {{"-s", &is_smooth}});
+  if (is_smooth)
+    context.deviations.approximated(fmt::format("genrev '{}'", command.id),
+                                    "its segments are smooth around, but not along it",
+                                    context.place);
+  CurveFunctions& functions = command.functions;
+  const size_t segments = command.count(0, most_segments);
   PrimitiveWriter writer;
   double z = functions.at("Z`SYS", {0}), r = functions.at("R`SYS", {0});
   for (size_t i = 1; i <= segments; ++i) {
     const double t = double(i) / double(segments);
     const double next_z = functions.at("Z`SYS", {t}), next_r = functions.at("R`SYS", {t});
-    add_revolved(writer, modifier, fmt::format("{}.{}", id, i), z, r, next_z, next_r);
+    add_revolved(writer, command.modifier, fmt::format("{}.{}", command.id, i), z, r, next_z,
+                 next_r);
     z = next_z;
     r = next_r;
   }
@@ -186,22 +216,13 @@ std::string generate_revolution(const Words& words, const GeneratorContext& cont
 }
 
 std::string generate_worm(const Words& words, const GeneratorContext& context) {
-  CommandArguments arguments(words,
-                             "genworm material name 'x(t)' 'y(t)' 'z(t)' 'r(t)' segments "
-                             "[-e expression] [-f file]",
-                             context.place);
-  CurveFunctions functions(arguments, context);
-  const std::string modifier = arguments.text(), id = arguments.text();
-  for (const char* name : {"X`SYS", "Y`SYS", "Z`SYS", "R`SYS"})
-    functions.define(name, "t", arguments.text());
-  const std::string count = arguments.text();
-  while (!arguments.at_end()) {
-    const std::string option = arguments.text();
-    if (!functions.take_option(option))
-      arguments.refuse(fmt::format("'genworm' has no option '{}'", option.substr(0, 40)));
-  }
-  functions.ready();
-  const size_t segments = functions.count_of(count, most_segments);
+  CurveCommand command(words, context,
+                       "genworm material name 'x(t)' 'y(t)' 'z(t)' 'r(t)' segments "
+                       "[-e expression] [-f file]",
+                       {"X`SYS", "Y`SYS", "Z`SYS", "R`SYS"}, "t", 1, {});
+  CurveFunctions& functions = command.functions;
+  const std::string &modifier = command.modifier, &id = command.id;
+  const size_t segments = command.count(0, most_segments);
   PrimitiveWriter writer;
   Vec3d last;
   double last_r = 0;
@@ -229,28 +250,14 @@ std::string generate_worm(const Words& words, const GeneratorContext& context) {
 }
 
 std::string generate_surface(const Words& words, const GeneratorContext& context) {
-  CommandArguments arguments(words,
-                             "gensurf material name 'x(s,t)' 'y(s,t)' 'z(s,t)' m n "
-                             "[-s] [-i] [-e expression] [-f file]",
-                             context.place);
-  CurveFunctions functions(arguments, context);
-  const std::string modifier = arguments.text(), id = arguments.text();
-  for (const char* name : {"X`SYS", "Y`SYS", "Z`SYS"})
-    functions.define(name, "s, t", arguments.text());
-  const std::string count_s = arguments.text(), count_t = arguments.text();
   bool is_smooth = false, is_reversed = false;
-  while (!arguments.at_end()) {
-    const std::string option = arguments.text();
-    if (option == "-s")
-      is_smooth = true;
-    else if (option == "-i")
-      is_reversed = true;
-    else if (!functions.take_option(option))
-      arguments.refuse(fmt::format("'gensurf' has no option '{}'", option.substr(0, 40)));
-  }
-  functions.ready();
-  const size_t m = functions.count_of(count_s, most_facets);
-  const size_t n = functions.count_of(count_t, most_facets / m);
+  CurveCommand command(words, context,
+                       "gensurf material name 'x(s,t)' 'y(s,t)' 'z(s,t)' m n "
+                       "[-s] [-i] [-e expression] [-f file]",
+                       {"X`SYS", "Y`SYS", "Z`SYS"}, "s, t", 2,
+                       {{"-s", &is_smooth}, {"-i", &is_reversed}});
+  CurveFunctions& functions = command.functions;
+  const size_t m = command.count(0, most_facets), n = command.count(1, most_facets / m);
   const bool is_partial = functions.has("valid");
   std::vector grid(m + 1, std::vector<GridPoint>(n + 1));
   for (size_t i = 0; i <= m; ++i)
@@ -263,7 +270,7 @@ std::string generate_surface(const Words& words, const GeneratorContext& context
                    functions.at("Z`SYS", {s, t})};
     }
   if (is_smooth) add_normals(grid);
-  FacetWriter writer(modifier, id, is_smooth, is_reversed);
+  FacetWriter writer(command.modifier, command.id, is_smooth, is_reversed);
   for (size_t i = 0; i < m; ++i)
     for (size_t j = 0; j < n; ++j) {
       const GridPoint &a = grid[i][j], &b = grid[i + 1][j], &c = grid[i + 1][j + 1],

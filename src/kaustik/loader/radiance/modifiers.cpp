@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/base/error.h"
+#include "kaustik/loader/near_names.h"
 
 namespace kaustik::radiance {
 namespace {
@@ -29,24 +30,24 @@ ModifierPointer Modifiers::find(const std::string& name, const Place& place) con
   if (name == "void") return nullptr;
   const auto found = known_.find(name);
   if (found != known_.end()) return found->second;
-  const std::string nearest = nearest_to(name);
+  const std::string nearest = suggestion_for(name);
   throw Error(ErrorKind::input, fmt::format("no modifier '{}' is defined before", name),
               nearest.empty()
                   ? "define the material above its use, load a file that has all of the scene "
                     "(a .rif names the materials, too), or write 'void' for none"
-                  : fmt::format("did you mean '{}'? Materials stand above their use", nearest),
+                  : nearest + " Materials stand above their use",
               place);
 }
 
-std::string Modifiers::nearest_to(const std::string& name) const {
+std::string Modifiers::suggestion_for(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& entry : known_)
     if (names.size() < 10'000 && !stand_ins_.contains(entry.first)) names.push_back(entry.first);
-  return nearest_name(name, names);
+  return did_you_mean(name, names);
 }
 
 bool Modifiers::is_unheard_of(const std::string& name) const {
-  return name != "void" && !known_.contains(name) && nearest_to(name).empty();
+  return name != "void" && !known_.contains(name) && suggestion_for(name).empty();
 }
 
 void Modifiers::define_stand_in(const std::shared_ptr<const Primitive>& primitive) {

@@ -46,7 +46,8 @@ class Modifiers {
   void define(std::shared_ptr<const Primitive> primitive, const Transform& placed);
 
  private:
-  std::string nearest_to(const std::string& name) const;
+  /// "did you mean …?" of a name that is defined; "": none is near.
+  std::string suggestion_for(const std::string& name) const;
 
   std::map<std::string, ModifierPointer> known_;
   std::set<std::string> stand_ins_;

@@ -158,9 +158,16 @@ std::string PatternReader::function_source(const std::string& name, const Modifi
   if (auto text = text_for(name, modifier)) return *text;
   const std::string_view built_in = cal_library_file(fs::path(name).filename().string());
   if (built_in.empty())
-    throw CalError(fmt::format("there is no file '{}' of functions, and none is built in",
-                               name.substr(0, 100)));
+    throw MissingFile(fmt::format("there is no file '{}' of functions, and none is built in",
+                                  name.substr(0, 100)));
   return std::string(built_in);
+}
+
+void PatternReader::tell_left_out(const char* what, const CalError& why, const Modifier& modifier) {
+  const bool is_missing = dynamic_cast<const MissingFile*>(&why) != nullptr;
+  deviations_.add(is_missing ? DeviationKind::missing : DeviationKind::ignored,
+                  name_of(*modifier.primitive),
+                  fmt::format("the {} is left out: {}", what, why.what()), modifier.place());
 }
 
 std::shared_ptr<const Pattern> PatternReader::pattern(const Modifier& modifier) {
@@ -169,8 +176,7 @@ std::shared_ptr<const Pattern> PatternReader::pattern(const Modifier& modifier) 
   try {
     entry->second = read_pattern(modifier);
   } catch (const CalError& error) {
-    deviations_.ignored(name_of(*modifier.primitive),
-                        fmt::format("the pattern is left out: {}", error.what()), modifier.place());
+    tell_left_out("pattern", error, modifier);
   }
   return entry->second;
 }
@@ -212,7 +218,7 @@ std::shared_ptr<const Pattern> PatternReader::read_pattern(const Modifier& modif
   for (size_t i = 0; i < count; ++i) {
     const std::string& name = strings[first + count + i];
     const auto text = text_for(name, modifier);
-    if (!text) throw CalError(fmt::format("there is no file '{}' of data", name.substr(0, 100)));
+    if (!text) throw MissingFile(fmt::format("there is no file '{}' of data", name.substr(0, 100)));
     tables.emplace_back(*text);
     if (tables.back().dimensions() != tables[0].dimensions())
       throw CalError("its tables have different dimensions");
@@ -229,7 +235,14 @@ std::shared_ptr<const Pattern> PatternReader::read_pattern(const Modifier& modif
 
 std::shared_ptr<const Pattern> PatternReader::read_spectrum(const Modifier& modifier) {
   const auto& reals = modifier.reals();
-  if (modifier.type() == "specfile" || reals.size() < 5 || !(reals[0] != reals[1]))
+  if (modifier.type() == "specfile") {
+    need_strings(modifier, 1);
+    const std::string& name = modifier.strings()[0];
+    if (!files_.find(name, folder_of(modifier), modifier.place()))
+      throw MissingFile(fmt::format("there is no file '{}' of a spectrum", name.substr(0, 100)));
+    throw CalError("spectra in files are not known here");
+  }
+  if (reals.size() < 5 || !(reals[0] != reals[1]))
     throw CalError("only spectra with at least three values of their own are known here");
   deviations_.approximated(name_of(*modifier.primitive),
                            "the spectrum counts by its means over red, green and blue",
@@ -244,8 +257,7 @@ std::shared_ptr<const PicturePattern> PatternReader::picture(const Modifier& mod
   try {
     entry->second = read_picture(modifier);
   } catch (const CalError& error) {
-    deviations_.ignored(name_of(*modifier.primitive),
-                        fmt::format("the picture is left out: {}", error.what()), modifier.place());
+    tell_left_out("picture", error, modifier);
   }
   return entry->second;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kaustik/base/parameters.h"
+#include "kaustik/loader/radiance/cal_program.h"
 #include "kaustik/loader/radiance/modifiers.h"
 #include "kaustik/loader/radiance/scene_files.h"
 
@@ -61,6 +62,7 @@ class PatternReader {
   std::shared_ptr<const PicturePattern> picture(const Modifier& modifier);
 
  private:
+  void tell_left_out(const char* what, const CalError& why, const Modifier& modifier);
   std::shared_ptr<const Pattern> read_pattern(const Modifier& modifier);
   std::shared_ptr<const PicturePattern> read_picture(const Modifier& modifier);
   std::shared_ptr<const Pattern> read_spectrum(const Modifier& modifier);

@@ -82,8 +82,13 @@ class SceneLoader {
     if (rif.files.empty())
       throw Error(ErrorKind::input, "the control file names no scene",
                   "add lines 'materials= file.mat' and 'scene= file.rad'", whole);
+    bool has_part = false;
     for (const auto& [file, place] : rif.files)
-      reader_.read_file(files_.found(file, folder, place), place);
+      if (const auto path = files_.find_part(file, folder, place)) {
+        has_part = true;
+        reader_.read_file(*path, place);
+      }
+    if (!has_part) files_.found(rif.files[0].first, folder, rif.files[0].second);
     for (const auto& [line, place] : rif.views) {
       // A single letter such as X or -Xl asks for a view of all from that side.
       const std::string_view name = trimmed(line);

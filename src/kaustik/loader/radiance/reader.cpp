@@ -200,7 +200,8 @@ void SceneReader::run_programs(const Command& command, const Frame& frame) {
                   "leave out one of the two", place);
     for (const Frame& inner : frames)
       for (const std::string& file : files)
-        walk_file(files_.found(file, frame.folder, place), inner, place);
+        if (const auto path = files_.find_part(file, frame.folder, place))
+          walk_file(*path, inner, place);
     return;
   }
   if (programs.empty())

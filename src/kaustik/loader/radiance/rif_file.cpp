@@ -8,6 +8,7 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/text_lines.h"
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/radiance/number_text.h"
 
 namespace kaustik::radiance {
@@ -118,9 +119,8 @@ void read_render(std::string_view value, const Place& place, RifFile& rif, Devia
 void leave_out(std::string_view name, const Place& place, Deviations& deviations) {
   const std::vector<std::string> names(variables.begin(), variables.end());
   const std::string message = fmt::format("rad knows no variable '{}'", name.substr(0, 40));
-  if (const std::string nearest = nearest_name(std::string(name.substr(0, 40)), names);
-      !nearest.empty())
-    throw Error(ErrorKind::input, message, fmt::format("did you mean '{}'?", nearest), place);
+  if (const std::string remedy = did_you_mean(name.substr(0, 40), names); !remedy.empty())
+    throw Error(ErrorKind::input, message, remedy, place);
   deviations.ignored("control file", message, place);
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "kaustik/base/file.h"
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 #include "kaustik/loader/radiance/compiled_reader.h"
 #include "kaustik/loader/text_places.h"
 
@@ -44,6 +44,17 @@ std::optional<fs::path> SceneFiles::find(const std::string& name, const fs::path
     return like;
   }
   return std::nullopt;
+}
+
+std::optional<fs::path> SceneFiles::find_part(const std::string& name, const fs::path& own_folder,
+                                              const Place& place) {
+  auto path = find(name, own_folder, place);
+  if (!path)
+    deviations_.missing("file " + name.substr(0, 200),
+                        "there is no such file beside the one that names it, nor in the folder of "
+                        "the scene: it is left out (folders of RAYPATH are not searched)",
+                        place);
+  return path;
 }
 
 fs::path SceneFiles::found(const std::string& name, const fs::path& own_folder,

@@ -25,7 +25,11 @@ class SceneFiles {
   std::optional<std::filesystem::path> find(const std::string& name,
                                             const std::filesystem::path& own_folder,
                                             const Place& place);
-  /// The same; throws Error(input) if there is none.
+  /// The same of a part of the scene; that there is none is told as missing.
+  std::optional<std::filesystem::path> find_part(const std::string& name,
+                                                 const std::filesystem::path& own_folder,
+                                                 const Place& place);
+  /// The same of what cannot be left out; throws Error(input) if there is none.
   std::filesystem::path found(const std::string& name, const std::filesystem::path& own_folder,
                               const Place& place);
   /// Of a file that `place` names, unpacked; counts as a source. Throws Error(input).

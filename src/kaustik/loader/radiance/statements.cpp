@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "kaustik/base/error.h"
+#include "kaustik/loader/near_names.h"
 #include "kaustik/loader/radiance/number_text.h"
 
 namespace kaustik::radiance {
 namespace {
-
-using namespace std::literals;
 
 /// Old spellings among them.
 constexpr auto types = std::to_array<std::pair<std::string_view, Kind>>({
@@ -136,11 +135,11 @@ class Scanner {
 [[noreturn]] void refuse_type(const std::string& type, const Place& place) {
   std::vector<std::string> names;
   for (const auto& row : types) names.emplace_back(row.first);
-  const std::string nearest = nearest_name(type, names);
+  const std::string remedy = did_you_mean(type, names);
   throw Error(ErrorKind::input, fmt::format("there is no primitive of type '{}'", type),
-              nearest.empty() ? "check the counts of arguments of the primitive before: what is "
-                                "left over is taken for the next one"s
-                              : fmt::format("did you mean '{}'?", nearest),
+              remedy.empty() ? "check the counts of arguments of the primitive before: what is "
+                               "left over is taken for the next one"
+                             : remedy,
               place);
 }
 

@@ -1,4 +1,4 @@
-#include "kaustik/loader/gzip.h"
+#include "kaustik/base/gzip.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,10 @@
 #include "kaustik/base/inflate.h"
 
 namespace kaustik {
-namespace {
 
 bool is_gzip(std::span<const uint8_t> bytes) {
   return bytes.size() >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b;
 }
-
-}  // namespace
 
 std::vector<uint8_t> unpacked(std::vector<uint8_t> bytes, size_t most, const Place& where) {
   if (!is_gzip(bytes)) return bytes;

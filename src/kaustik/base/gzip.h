@@ -7,6 +7,9 @@
 
 namespace kaustik {
 
+/// Whether a file that begins with these bytes is packed.
+bool is_gzip(std::span<const uint8_t> bytes);
+
 /// What the bytes hold: themselves, or what gzip has packed into them. At most `most` bytes, and
 /// one more where there are more. Throws Error(input) at `where` for packed data that are damaged,
 /// incomplete, or grow out of all proportion.
@@ -15,7 +18,8 @@ std::vector<uint8_t> unpacked(std::vector<uint8_t> bytes, size_t most, const Pla
 /// The same of the start of a file, as far as it can be unpacked.
 std::vector<uint8_t> unpacked_start(std::span<const uint8_t> bytes, size_t most);
 
-/// XML and the like are packed to a tenth or a twentieth. Small files may grow beyond that.
-inline constexpr size_t usual_growth = 20, always_allowed_growth = size_t{64} << 20;
+/// XML, meshes of text and the like are packed to a tenth or a twentieth. Small files may grow
+/// beyond that.
+inline constexpr size_t usual_growth = 30, always_allowed_growth = size_t{64} << 20;
 
 }  // namespace kaustik

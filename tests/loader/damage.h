@@ -1,0 +1,80 @@
+#pragma once
+// Damaged copies of a text, for readers that must return or throw whatever the bytes.
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace kaustik {
+
+/// Makes one change in a text.
+using Change = std::function<void(std::string& text, std::mt19937& random)>;
+
+/// How many damaged texts are tried: fewer in builds that are slow, as many as the environment
+/// variable KAUSTIK_DAMAGE_ROUNDS says, if it is set.
+inline int damage_rounds([[maybe_unused]] int usual, [[maybe_unused]] int in_slow_builds) {
+  if (const char* asked = std::getenv("KAUSTIK_DAMAGE_ROUNDS"))
+    return std::max(1, std::atoi(asked));
+#ifdef KAUSTIK_SLOW_BUILD
+  return in_slow_builds;
+#else
+  return usual;
+#endif
+}
+
+/// Calls `survives` with so many copies of a text, each changed up to `most_changes` times. How
+/// many did not survive.
+template <typename Survives>
+int count_refused(const std::string& whole, unsigned seed, int rounds, unsigned most_changes,
+                  const Change& change, const Survives& survives) {
+  std::mt19937 random(seed);
+  int refused = 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::string text = whole;
+    for (size_t changes = 1 + random() % most_changes; changes > 0; --changes) change(text, random);
+    if (!survives(text)) ++refused;
+  }
+  return refused;
+}
+
+/// A byte becomes another one.
+inline void flip_byte(std::string& text, std::mt19937& random) {
+  text[random() % text.size()] ^= char(1 + random() % 255);
+}
+
+/// A letter becomes one of these, within the first `most` of the text.
+inline Change odd_letter(std::string letters, size_t most = std::string::npos) {
+  return [letters = std::move(letters), most](std::string& text, std::mt19937& random) {
+    text[random() % std::min(most, text.size())] = letters[random() % letters.size()];
+  };
+}
+
+/// A piece of the whole text stands in place of up to `most_removed` bytes. More of the text stays
+/// sound than by single bytes.
+inline Change exchanged_piece(std::string whole, size_t most_removed = 59) {
+  return [whole = std::move(whole), most_removed](std::string& text, std::mt19937& random) {
+    const std::string piece = whole.substr(random() % whole.size(), 1 + random() % 60);
+    text.replace(random() % text.size(), random() % (most_removed + 1), piece);
+  };
+}
+
+/// One of these words stands in place of up to `most_removed` bytes.
+inline Change exchanged_word(std::vector<std::string> words, size_t most_removed = 7) {
+  return [words = std::move(words), most_removed](std::string& text, std::mt19937& random) {
+    text.replace(random() % text.size(), random() % (most_removed + 1),
+                 words[random() % words.size()]);
+  };
+}
+
+/// One of the two, as often as the other.
+inline Change either(Change first, Change second) {
+  return [first = std::move(first), second = std::move(second)](std::string& text,
+                                                                std::mt19937& random) {
+    (random() % 2 ? first : second)(text, random);
+  };
+}
+
+}  // namespace kaustik
