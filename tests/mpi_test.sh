@@ -18,6 +18,8 @@ together() {
   shift
   mpirun --oversubscribe --bind-to none -np "$processes" "$kaustik_mpi" "$@"
 }
+# The same in the background, of which $! is mpirun itself.
+together_meanwhile() { (exec mpirun --oversubscribe --bind-to none -np "$1" "$kaustik_mpi" "${@:2}") >out 2>&1 & }
 ! ldd "$kaustik" | grep -q libmpi || fail "the plain program needs MPI"
 
 scene=$root/scenes/cornell_box/cornell_box.xml
@@ -49,8 +51,8 @@ together 2 merge a.kpt -o b.kpt >out 2>&1 || code=$?
 grep -q "kaustik-mpi renders" out || fail "merge is no command of kaustik-mpi"
 
 # A signal to one process ends all, and what is finished is kept.
-together 3 "${render[@]}" --integrator path --passes 100000 --spp 400000 --checkpoint part.kpt --every 1s -o ended.exr \
-  >out 2>&1 &
+together_meanwhile 3 "${render[@]}" --integrator path --passes 100000 --spp 400000 --checkpoint part.kpt --every 1s \
+  -o ended.exr
 mpirun=$!
 for ((i = 0; i < 100; ++i)); do
   [[ -s part.kpt ]] && break
@@ -65,8 +67,8 @@ wait "$mpirun" || code=$?
 [[ -s ended.exr ]] || fail "no picture of what is finished"
 
 # A process that is killed takes the others with it; the checkpoint stays.
-together 3 "${render[@]}" --integrator path --passes 100000 --spp 400000 --checkpoint part.kpt --resume-if-there \
-  --every 1s -o killed.exr >out 2>&1 &
+together_meanwhile 3 "${render[@]}" --integrator path --passes 100000 --spp 400000 --checkpoint part.kpt \
+  --resume-if-there --every 1s -o killed.exr
 mpirun=$!
 sleep 3
 kill -KILL "$(pgrep -P "$mpirun" | tail -1)"

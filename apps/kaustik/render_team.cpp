@@ -1,8 +1,8 @@
 #include "render_team.h"
 
-#include <unistd.h>
-
+#include <chrono>
 #include <cstdio>
+#include <thread>
 #include <utility>
 
 #include "screen.h"
@@ -16,11 +16,11 @@ std::shared_ptr<Team>& joined_team() {
 }
 
 /// Most mistakes are those of all processes: the leader tells them, and ends the others.
-constexpr unsigned seconds_for_leader = 2;
+constexpr std::chrono::seconds time_for_leader(5);
 
 void tell_errors_only(Level level, const std::string& text) {
   if (level != Level::error) return;
-  ::sleep(seconds_for_leader);
+  std::this_thread::sleep_for(time_for_leader);
   std::fputs(fmt::format("process {}: error: {}\n", joined_team()->rank(), text).c_str(), stderr);
 }
 

@@ -45,7 +45,9 @@ int main(int argc, char** argv) {
   const int exit_code = run(argc, argv);
   // Others may wait for one that has failed, and for ever.
   if (exit_code != 0 && exit_code != exit_ended_early) MPI_Abort(MPI_COMM_WORLD, exit_code);
+  const bool was_follower = is_follower();
   join_team(nullptr);
   MPI_Finalize();
-  return exit_code;
+  // mpirun ends the others as soon as one tells that not all was done.
+  return was_follower ? 0 : exit_code;
 }
