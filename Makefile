@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package package-test docs format clean
+.PHONY: all setup configure build render test test-long test-cluster coverage thesis bench bench-cluster bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package package-test docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -70,6 +70,24 @@ bench-scenes: configure
 	@cmake --build --preset release --target bench_scenes comparisons_page
 	$(comparisons)/bench_scenes --results $(RESULTS) $(bench_scenes_options)
 	$(comparisons)/comparisons_page $(RESULTS) --peers $(PEER_RESULTS)
+
+# What many machines are worth: processes of MPI, merging, adding up films, and a model of up to 10 000 nodes. Ten minutes;
+# needs MPI, and root for its test network.
+CLUSTER_MEASURED ?= out/cluster.json
+bench-cluster: setup
+	@scripts/install_packages.sh mpi
+	@cmake --preset release $(if $(wildcard $(BUILD)/CMakeCache.txt),,-D KAUSTIK_UNITY=ON -D KAUSTIK_PRECOMPILED_HEADERS=ON) -D KAUSTIK_MPI=ON
+	@cmake --build --preset release --target kaustik kaustik-mpi merge_bench adding_bench cluster_model
+	@mkdir -p out
+	benchmarks/cluster/cluster_bench.py $(program) $(program)-mpi $(BUILD)/benchmarks/merge_bench \
+	  $(BUILD)/benchmarks/cluster/adding_bench $(CLUSTER_MEASURED) $(CLUSTER_OPTIONS)
+	$(BUILD)/benchmarks/cluster/cluster_model $(CLUSTER_MEASURED)
+
+# Parts, processes of MPI and engines, with death and slow networks: docs/cluster.md. What needs something that is not
+# here is skipped, and says why.
+test-cluster: configure
+	@cmake --build --preset release
+	ctest --test-dir $(BUILD) --output-on-failure --label-regex cluster
 
 # What each device of auto is worth, into docs/ablation.md: the time for a given noise without it. A quarter of an hour.
 ablation: configure

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Processes of MPI that share a picture's passes: the same bits as of one process, whatever their number; a checkpoint
-# goes on with another number; mistakes are told once; signals and time end all. Usage: mpi_test.sh PROGRAM MPI_PROGRAM
+# Processes of MPI that share a picture's passes: the same bits as of one process, whatever their number, and however
+# one of them is stopped, slowed or killed; a checkpoint goes on with another number; mistakes are told once; signals,
+# time and the error end all. Usage: mpi_test.sh PROGRAM MPI_PROGRAM
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 kaustik=$(realpath "$1") kaustik_mpi=$(realpath "$2")
@@ -27,7 +28,7 @@ render=(render "$scene" --set film.width=32 --set film.height=32 --threads 1 --r
 for integrator in path auto; do
   picture=("${render[@]}" --integrator "$integrator" --passes 11 --spp 44)
   "$kaustik" "${picture[@]}" -o one.exr
-  for processes in 1 2 3 ${MORE_PROCESSES:-}; do
+  for processes in 1 2 3 4 7; do
     together "$processes" "${picture[@]}" -o "all_$processes.exr"
     cmp one.exr "all_$processes.exr" || fail "$integrator: the bits of $processes processes are others"
   done
@@ -51,7 +52,7 @@ together 2 merge a.kpt -o b.kpt >out 2>&1 || code=$?
 grep -q "kaustik-mpi renders" out || fail "merge is no command of kaustik-mpi"
 
 # A signal to one process ends all, and what is finished is kept.
-together_meanwhile 3 "${render[@]}" --integrator path --passes 100000 --spp 400000 --checkpoint part.kpt --every 1s \
+together_meanwhile 3 "${render[@]}" --integrator path --passes 10000 --spp 40000 --checkpoint part.kpt --every 1s \
   -o ended.exr
 mpirun=$!
 for ((i = 0; i < 100; ++i)); do
@@ -66,19 +67,72 @@ wait "$mpirun" || code=$?
 [[ $code -eq 75 ]] || { cat out; fail "ended early with $code, not with 75"; }
 [[ -s ended.exr ]] || fail "no picture of what is finished"
 
-# A process that is killed takes the others with it; the checkpoint stays.
-together_meanwhile 3 "${render[@]}" --integrator path --passes 100000 --spp 400000 --checkpoint part.kpt \
-  --resume-if-there --every 1s -o killed.exr
-mpirun=$!
-sleep 3
-kill -KILL "$(pgrep -P "$mpirun" | tail -1)"
-code=0
-wait "$mpirun" || code=$?
-[[ $code -ne 0 ]] || fail "a killed process is no failure"
-"$kaustik" merge part.kpt -o there.exr --incomplete -q 2>/dev/null || "$kaustik" merge part.kpt -o there.exr
-[[ -s there.exr ]] || fail "the checkpoint is of no use"
+# Of a picture that takes some seconds: stopped for a while, slowed, killed, and the leader killed. It goes on from the
+# checkpoint, with another number of processes.
+rm part.kpt
+long=(render "$scene" --set film.width=32 --set film.height=32 --threads 1 --reproducible --progress none
+  --integrator path --passes 160 --spp 1280)
+"$kaustik" "${long[@]}" -o one.exr 2>out
+kept=(--checkpoint part.kpt --resume-if-there --every 0.2s -o all.exr)
+# Rank 0 is the first process that mpirun has started.
+begin_disturbed() {
+  together_meanwhile 3 "${long[@]}" "${kept[@]}"
+  mpirun=$!
+  for ((i = 0; i < 100; ++i)); do
+    [[ -s part.kpt ]] && break
+    sleep 0.1
+  done
+  [[ -s part.kpt ]] || fail "no checkpoint comes meanwhile"
+  mapfile -t ranks < <(pgrep -P "$mpirun" "$(basename "$kaustik_mpi")")
+  [[ ${#ranks[@]} -eq 3 ]] || fail "there are ${#ranks[@]} processes"
+}
+begin_disturbed
+kill -STOP "${ranks[1]}"
+sleep 1.5
+kill -CONT "${ranks[1]}"
+# Half of the time it sleeps from here on.
+(while kill -STOP "${ranks[2]}" 2>/dev/null; do
+  sleep 0.05
+  kill -CONT "${ranks[2]}"
+  sleep 0.05
+done) 2>/dev/null &
+wait "$mpirun" || { cat out; fail "a process that was stopped and one that is slow: ended with $?"; }
+cmp one.exr all.exr || fail "the bits are others where processes were stopped and slowed"
+rm part.kpt
+for victim in 2 0; do
+  begin_disturbed
+  kill -KILL "${ranks[victim]}"
+  code=0
+  wait "$mpirun" || code=$?
+  [[ $code -ne 0 ]] || fail "a killed process is no failure"
+  "$kaustik" merge part.kpt -o there.exr >out 2>&1 || fail "the checkpoint is of no use"
+  together 2 "${long[@]}" "${kept[@]}" 2>again || { cat again; fail "it does not go on"; }
+  grep -q "goes on: passes 0" again || fail "it begins anew: $(cat again)"
+  cmp one.exr all.exr || fail "the bits are others after process $victim was killed"
+  rm part.kpt
+done
+
+# Only the leader sees the files. The others get copies.
+mkdir files copies
+cp -r "$root/scenes/cornell_box/." files
+alone=(render cornell_box.xml --set film.width=32 --set film.height=32 --threads 1 --reproducible -q --passes 6 --spp 24)
+(cd files && "$kaustik" "${alone[@]}" -o ../one.exr)
+(
+  export TMPDIR=$work/copies
+  mpirun --oversubscribe --bind-to none -wdir "$work/files" -np 1 "$kaustik_mpi" "${alone[@]}" --broadcast-scene -o ../all.exr : \
+    -wdir "$work/copies" -np 2 "$kaustik_mpi" "${alone[@]}" --broadcast-scene -o ../all.exr
+)
+cmp one.exr all.exr || fail "the bits are others with --broadcast-scene"
+[[ -z $(find copies -name "*.xml") ]] || fail "copies of the scene are left"
+! "$kaustik" render --help | grep -q broadcast || fail "the plain program has options of MPI"
 
 # Time ends it between passes.
-together 2 "${render[@]}" --integrator path --time 3s --checkpoint time.kpt -o time.exr
+together 2 "${render[@]}" --integrator path --time 2s --checkpoint time.kpt -o time.exr
 [[ -s time.exr ]] || fail "no picture after --time"
-echo "mpi: 1, 2, 3 ${MORE_PROCESSES:-} processes have the bits of one"
+
+# The error is looked at after as many passes as by one process.
+good=("${render[@]}" --integrator path --error 20%)
+"$kaustik" "${good[@]}" -o one.exr
+together 3 "${good[@]}" -o all.exr
+cmp one.exr all.exr || fail "--error ends it elsewhere"
+echo "mpi: 1, 2, 3, 4 and 7 processes have the bits of one, and so has what was stopped, slowed and killed"

@@ -37,6 +37,14 @@ bool has_contents(const std::string& path) {
 
 const FileKind any_file = {"a file with contents", [](const std::string&) { return true; }};
 
+std::set<std::string> files_of(const Description& description) {
+  std::set<std::string> files = named_files(description, description_types());
+  std::error_code ignored;
+  std::erase_if(files, [&](const std::string& file) { return !fs::exists(file, ignored); });
+  files.insert(description.sources.begin(), description.sources.end());
+  return files;
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code failed;
   if (fs::equivalent(a, b, failed) && !failed) return true;
@@ -56,11 +64,7 @@ void FileRoles::reads_scene(const std::string& path) {
 }
 
 void FileRoles::reads(const Description& description) {
-  for (const std::string& file : description.sources) reads_scene(file);
-  std::error_code ignored;
-  // Whoever reads it tells of one that is not there.
-  for (const std::string& file : named_files(description, description_types()))
-    if (fs::exists(file, ignored)) reads(file);
+  for (const std::string& file : files_of(description)) reads_scene(file);
 }
 
 void FileRoles::writes(const std::string& path) {

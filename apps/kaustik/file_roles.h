@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,9 @@ class FileRoles {
   std::vector<Input> inputs_;
   std::vector<std::string> outputs_;
 };
+
+/// The scene files and all that they name, but what is not there: whoever reads it tells of that.
+std::set<std::string> files_of(const Description& description);
 
 /// Whether both names, through links too, are of one file, there or not. Throws Error(input) for an
 /// empty name.

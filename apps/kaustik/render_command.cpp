@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <set>
 
 #include "begun_render.h"
 #include "commands.h"
+#include "file_broadcast.h"
 #include "file_roles.h"
 #include "kaustik/base/file.h"
 #include "kaustik/base/version.h"
@@ -42,7 +45,7 @@ struct RenderOptions {
   BuildOptions build;
   int threads = 0;
   std::optional<double> exposure;
-  bool force = false, resume_if_there = false;
+  bool force = false, resume_if_there = false, broadcast_scene = false;
   ProgressOptions progress;
   ViewOptions views;
 };
@@ -76,6 +79,7 @@ void name_picture(RenderOptions& options) {
 bool check_checkpoint(const RenderOptions& options, FileRoles& roles) {
   if (!options.checkpoint) return false;
   const std::string& path = *options.checkpoint;
+  if (is_follower()) return options.resume_if_there && is_begun(path);
   if (options.resume_if_there && is_begun(path)) {
     roles.reads(path);
     check_output_path(path);
@@ -131,10 +135,39 @@ void leave_to_leader(RenderOptions& options) {
   options.views = {};
 }
 
+/// All that the command reads.
+std::set<std::string> files_read_by(const RenderOptions& options) {
+  if (is_standard_stream(options.recipe.scene))
+    throw Error(ErrorKind::input, "a scene from standard input cannot be broadcast",
+                "save it, and give the name of the file");
+  RenderRecipe recipe = options.recipe;
+  recipe.definitions = parse_definitions(options.definitions);
+  std::set<std::string> files = files_of(load_description(recipe));
+  files.insert(recipe.scene);
+  if (!recipe.points.empty()) files.insert(recipe.points);
+  if (options.learned) files.insert(*options.learned);
+  if (options.checkpoint && options.resume_if_there && is_begun(*options.checkpoint))
+    files.insert(*options.checkpoint);
+  return files;
+}
+
+/// Copies of the leader's files, and their names here; none where nobody has asked for them.
+std::unique_ptr<FileBroadcast> broadcast_files(RenderOptions& options) {
+  if (!options.broadcast_scene) return nullptr;
+  auto files = std::make_unique<FileBroadcast>(
+      *render_team(), is_follower() ? std::set<std::string>() : files_read_by(options));
+  std::string& points = options.recipe.points;
+  for (std::string* path : {&options.recipe.scene, &points}) *path = files->here(*path);
+  for (std::optional<std::string>* path : {&options.learned, &options.checkpoint})
+    if (*path) *path = files->here(**path);
+  return files;
+}
+
 void render(RenderOptions options) {
   JobSettings job;
   RenderRecipe& recipe = options.recipe;
   check_views(options.views);
+  const auto copies = broadcast_files(options);
   FileRoles roles;
   roles.reads_scene(recipe.scene);
   if (!recipe.points.empty()) roles.reads(recipe.points);
@@ -298,6 +331,10 @@ void add_render(CLI::App& program) {
                     "Smooth the picture's noise like kaustik denoise; the EXR's layers keep it");
   command->add_flag("--reproducible", options->outputs.reproducible,
                     "Write no times, so equal renders give equal files");
+  if (render_team())
+    command->add_flag("--broadcast-scene", options->broadcast_scene,
+                      "Only process 0 reads the scene's files; the others get copies in their "
+                      "folder for temporary files");
   add_progress(*command, options->progress, "No progress, notes and values of meters");
   add_views(*command, options->views);
   command->callback([options] { render(*options); });

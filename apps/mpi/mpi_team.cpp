@@ -1,7 +1,7 @@
 #include "mpi_team.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
 #include <functional>
 
 namespace kaustik::app {
@@ -11,18 +11,8 @@ constexpr int leader = 0, tag = 1;
 /// MPI counts in int.
 constexpr size_t most_at_once = size_t{1} << 30;
 
-/// Of two rows of sums, which MPI may have put anywhere.
-void add_sums(void* in, void* sums, int* count, MPI_Datatype*) {
-  const auto* from = static_cast<const uint8_t*>(in);
-  auto* to = static_cast<uint8_t*>(sums);
-  for (int i = 0; i < *count; ++i, from += sizeof(Fixed), to += sizeof(Fixed)) {
-    Fixed value, sum;
-    std::memcpy(&value, from, sizeof value);
-    std::memcpy(&sum, to, sizeof sum);
-    add_to(sum, value);
-    std::memcpy(to, &sum, sizeof sum);
-  }
-}
+/// Of the chain that adds up: small, so that all links of it have work soon.
+constexpr size_t chain_sums = size_t{16} << 10;
 
 /// Calls move(bytes, count) for pieces that MPI can count.
 void in_pieces(std::vector<uint8_t>& bytes, const std::function<void(uint8_t*, int)>& move) {
@@ -41,15 +31,12 @@ MpiTeam::MpiTeam() {
   size_ = uint32_t(number);
   MPI_Type_contiguous(sizeof(Fixed), MPI_BYTE, &number_);
   MPI_Type_commit(&number_);
-  constexpr int commutes = 1;
-  MPI_Op_create(add_sums, commutes, &addition_);
 }
 
 MpiTeam::~MpiTeam() {
   int is_over = 0;
   MPI_Finalized(&is_over);
   if (is_over) return;
-  MPI_Op_free(&addition_);
   MPI_Type_free(&number_);
   MPI_Comm_free(&all_);
 }
@@ -85,14 +72,32 @@ std::vector<std::vector<uint8_t>> MpiTeam::to_leader(std::vector<uint8_t> bytes)
 }
 
 void MpiTeam::add_up(std::span<Fixed> sums) {
-  if (size_ == 1) return;
-  // Each adds up a share, the last of which may end in zeros.
-  const size_t share = (sums.size() + size_ - 1) / size_;
-  std::vector<Fixed> all(share * size_), own(share);
-  std::copy(sums.begin(), sums.end(), all.begin());
-  MPI_Reduce_scatter_block(all.data(), own.data(), int(share), number_, addition_, all_);
-  MPI_Gather(own.data(), int(share), number_, all.data(), int(share), number_, leader, all_);
-  if (is_led_here()) std::copy_n(all.begin(), sums.size(), sums.begin());
+  const size_t pieces = (sums.size() + chain_sums - 1) / chain_sums;
+  const auto piece = [&](size_t i) {
+    return sums.subspan(i * chain_sums, std::min(chain_sums, sums.size() - i * chain_sums));
+  };
+  // The next piece is under way while one is added.
+  std::array<std::vector<Fixed>, 2> arriving;
+  std::array<MPI_Request, 2> arrivals{MPI_REQUEST_NULL, MPI_REQUEST_NULL};
+  const auto expect = [&](size_t i) {
+    if (rank_ + 1 == size_ || i >= pieces) return;
+    std::vector<Fixed>& to = arriving[i % 2];
+    to.resize(piece(i).size());
+    MPI_Irecv(to.data(), int(to.size()), number_, int(rank_) + 1, tag, all_, &arrivals[i % 2]);
+  };
+  std::vector<MPI_Request> sent;
+  expect(0);
+  for (size_t i = 0; i < pieces; ++i) {
+    expect(i + 1);
+    MPI_Wait(&arrivals[i % 2], MPI_STATUS_IGNORE);
+    const std::span<Fixed> own = piece(i);
+    if (rank_ + 1 < size_)
+      for (size_t k = 0; k < own.size(); ++k) add_to(own[k], arriving[i % 2][k]);
+    if (is_led_here()) continue;
+    MPI_Isend(own.data(), int(own.size()), number_, int(rank_) - 1, tag, all_,
+              &sent.emplace_back());
+  }
+  MPI_Waitall(int(sent.size()), sent.data(), MPI_STATUSES_IGNORE);
 }
 
 }  // namespace kaustik::app

@@ -18,15 +18,14 @@ class MpiTeam final : public Team {
   uint32_t size() const override { return size_; }
   std::vector<uint8_t> from_leader(std::vector<uint8_t> bytes) override;
   std::vector<std::vector<uint8_t>> to_leader(std::vector<uint8_t> bytes) override;
-  /// By reduce-scatter and gather: each process sends and receives the sums twice, however many
-  /// processes there are.
+  /// Along a chain: each adds its own to what comes from the next one, and hands it on towards the
+  /// leader, piece by piece. So over each cable the sums go once, however many processes there are.
   void add_up(std::span<Fixed> sums) override;
 
  private:
   uint32_t rank_ = 0, size_ = 1;
   MPI_Comm all_ = MPI_COMM_NULL;  ///< apart from what others of the program might send
   MPI_Datatype number_ = MPI_DATATYPE_NULL;
-  MPI_Op addition_ = MPI_OP_NULL;
 };
 
 }  // namespace kaustik::app

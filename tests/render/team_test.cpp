@@ -188,15 +188,16 @@ TEST_F(TeamTest, FilmsAreAddedUp) {
 }
 
 TEST(TeamMessages, ComeBackAsTheyWere) {
-  TeamOrder order{TeamOrder::Kind::render, SessionEnd::time, {}, {3, {1, 2, 3}}};
+  TeamOrder order{TeamOrder::Kind::render, SessionEnd::time, {}, {2, 0, 2}, {3, {1, 2, 3}}};
   order.passes.add({2, 5});
   order.passes.add({9, 10});
   const TeamOrder read = TeamOrder::from(order.bytes());
   EXPECT_EQ(read.kind, order.kind);
   EXPECT_EQ(read.end, order.end);
   EXPECT_EQ(read.lessons, order.lessons);
-  EXPECT_EQ(read.of_member(0, 3), (std::vector<uint32_t>{2, 9}));
-  EXPECT_EQ(read.of_member(2, 3), (std::vector<uint32_t>{4}));
+  EXPECT_EQ(read.of_member(0), (std::vector<uint32_t>{2, 3}));
+  EXPECT_TRUE(read.of_member(1).empty());
+  EXPECT_EQ(read.of_member(2), (std::vector<uint32_t>{4, 9}));
   std::vector<uint8_t> bytes = order.bytes();
   bytes.pop_back();
   EXPECT_THROW(TeamOrder::from(bytes), Error);

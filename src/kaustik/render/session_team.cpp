@@ -4,6 +4,7 @@
 #include <bit>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "kaustik/base/parallel.h"
@@ -12,12 +13,16 @@
 namespace kaustik {
 namespace {
 
-/// What a round is to take about: members wait for one another at its end.
-constexpr double round_s = 5;
+/// What a round is to take about. Members wait for one another at its end.
+constexpr double shortest_round_s = 5, longest_round_s = 300;
 /// In a round, so that its lists stay short.
-constexpr double most_passes_per_member = 1024;
+constexpr uint64_t most_passes_per_member = 1024;
+/// The same while passes teach: that is kept until the end of the round.
+constexpr uint64_t most_taught_per_member = 4;
 /// Adding up takes no more than this share of the time.
 constexpr double most_adding = 0.05;
+/// Of the time until films are added up: a round of what is left would be short.
+constexpr double soon_enough = 0.875;
 constexpr uint32_t never = std::numeric_limits<uint32_t>::max();
 
 }  // namespace
@@ -30,6 +35,7 @@ Session::TeamRun::TeamRun(Session& session, Monitor& monitor, std::stop_token st
       pass_done_(pass_done),
       team_(*session.settings_.team),
       lessons_(session.integrator_.share_lessons()),
+      pace_(team_.size()),
       rendered_(session.film_.passes()),
       last_s_(monitor.now()) {}
 
@@ -55,14 +61,14 @@ TeamReport Session::TeamRun::rendered(const TeamOrder& order) {
     lessons_->take_over(order.lessons);
   TeamReport report;
   const uint64_t rays = monitor_.rays, photons = monitor_.photons, dropped = monitor_.dropped;
-  for (const uint32_t index : order.of_member(team_.rank(), team_.size())) {
+  for (const uint32_t index : order.of_member(team_.rank())) {
     const double begin = monitor_.now();
     const Pass pass{session_.settings_.seed, index, session_.samples_per_pass_, {}};
     if (stop_.stop_requested() ||
         session_.render_pass({pass, {}}, stop_, monitor_) != PassEnd::complete)
       break;
     monitor_.pass_done();
-    report.slowest_s = std::max(report.slowest_s, monitor_.seconds_since(begin));
+    report.seconds += monitor_.seconds_since(begin);
     report.passes.push_back(
         {index, lessons_ ? lessons_->take_taught(index) : std::vector<uint8_t>()});
   }
@@ -76,13 +82,12 @@ TeamReport Session::TeamRun::rendered(const TeamOrder& order) {
 void Session::TeamRun::take_reports(const std::vector<std::vector<uint8_t>>& reports) {
   if (!team_.is_led_here()) return;
   std::vector<TeamReport::DonePass> done;
-  slowest_s_ = 0;
-  for (size_t rank = 0; rank < reports.size(); ++rank) {
+  for (uint32_t rank = 0; rank < reports.size(); ++rank) {
     TeamReport report = TeamReport::from(reports[rank]);
     is_stopped_ = is_stopped_ || report.is_stopped;
-    slowest_s_ = std::max(slowest_s_, report.slowest_s);
+    const auto passes = uint32_t(report.passes.size());
+    pace_.add(rank, passes, report.seconds);
     if (rank > 0) {
-      const auto passes = uint32_t(report.passes.size());
       elsewhere_ += passes;
       monitor_.others_done(passes);
       monitor_.rays += report.rays;
@@ -120,11 +125,13 @@ void Session::TeamRun::add_up() {
   took_s_ = last_s_ - begin;
 }
 
+double Session::TeamRun::time_to_add_up() const {
+  if (!session_.settings_.team_interval_s) return std::numeric_limits<double>::infinity();
+  return std::max(*session_.settings_.team_interval_s, took_s_ * (1 / most_adding - 1));
+}
+
 bool Session::TeamRun::is_time_to_add_up() const {
-  if (!session_.settings_.team_interval_s) return false;
-  const double interval_s =
-      std::max(*session_.settings_.team_interval_s, took_s_ * (1 / most_adding - 1));
-  return monitor_.seconds_since(last_s_) >= interval_s;
+  return monitor_.seconds_since(last_s_) >= soon_enough * time_to_add_up();
 }
 
 uint32_t Session::TeamRun::next_look(uint32_t passes) {
@@ -136,7 +143,8 @@ std::optional<SessionEnd> Session::TeamRun::end_before(uint32_t first) const {
   if (elsewhere_ == 0 && session_.is_good_enough(monitor_.error())) return SessionEnd::error;
   if (session_.pass_count_ > 0 && first >= session_.planned().end) return SessionEnd::passes;
   const std::optional<double> seconds = session_.settings_.seconds;
-  if (seconds && monitor_.passes_done() > 0 && monitor_.elapsed() + slowest_s_ > *seconds)
+  if (seconds && monitor_.passes_done() > 0 &&
+      monitor_.elapsed() + pace_.fastest_pass_s() > *seconds)
     return SessionEnd::time;
   return std::nullopt;
 }
@@ -148,25 +156,28 @@ TeamOrder Session::TeamRun::next_order() {
   const bool looks = session_.settings_.error && rendered_.count() >= replicate_count &&
                      std::has_single_bit(rendered_.count());
   if (elsewhere_ > 0 && (end || looks || is_time_to_add_up()))
-    return {TeamOrder::Kind::add_up, {}, {}, {}};
-  if (end) return {TeamOrder::Kind::end, *end, {}, {}};
+    return {TeamOrder::Kind::add_up, {}, {}, {}, {}};
+  if (end) return {TeamOrder::Kind::end, *end, {}, {}, {}};
   TeamOrder round = next_round(first);
   // It may have been stopped while passes were traced for their lessons.
   if (stop_.stop_requested()) return next_order();
   return round;
 }
 
-uint32_t Session::TeamRun::passes_per_member(bool is_learning) const {
-  // What they teach has to be kept until the end of the round.
-  if (is_learning || slowest_s_ <= 0) return 1;
-  double seconds = round_s;
-  if (session_.settings_.seconds)
-    seconds = std::min(seconds, *session_.settings_.seconds - monitor_.elapsed());
-  return uint32_t(std::clamp(seconds / slowest_s_, 1.0, most_passes_per_member));
+double Session::TeamRun::next_round_s() const {
+  const double pass_s = pace_.usual_pass_s();
+  double seconds = pace_.next_round_s(shortest_round_s, longest_round_s);
+  if (session_.settings_.team_interval_s)
+    seconds =
+        std::min(seconds, std::max(pass_s, time_to_add_up() - monitor_.seconds_since(last_s_)));
+  // A pass that is begun is finished, so the last one begins a pass before.
+  if (const std::optional<double> limit = session_.settings_.seconds)
+    seconds = std::min(seconds, *limit - monitor_.elapsed() - 0.5 * pass_s);
+  return std::max(seconds, 0.0);
 }
 
 TeamOrder Session::TeamRun::next_round(uint32_t first) {
-  TeamOrder order{TeamOrder::Kind::render, {}, {}, {}};
+  TeamOrder order{TeamOrder::Kind::render, {}, {}, {}, {}};
   if (lessons_ && first >= lessons_end_) {
     PassReport report;
     order.lessons = lessons_->lessons_for(
@@ -177,11 +188,15 @@ TeamOrder Session::TeamRun::next_round(uint32_t first) {
     lessons_end_ = lessons_->epoch_end(first).value_or(never);
   }
   const bool is_learning = lessons_ && lessons_end_ != never;
-  uint64_t most = uint64_t(team_.size()) * passes_per_member(is_learning);
+  uint64_t most = team_.size() * (is_learning ? most_taught_per_member : most_passes_per_member);
   if (session_.settings_.error)
     most = std::min<uint64_t>(most, next_look(rendered_.count()) - rendered_.count());
   const uint32_t end = std::min(is_learning ? lessons_end_ : pass_limit,
                                 session_.pass_count_ > 0 ? session_.planned().end : pass_limit);
+  most = std::min<uint64_t>(most, rendered_.missing({first, end}));
+  order.shares = pace_.shares(most, next_round_s());
+  pace_.doubt(std::min(longest_round_s, time_to_add_up()));
+  most = std::accumulate(order.shares.begin(), order.shares.end(), uint64_t{0});
   for (uint32_t pass = first; pass < end && order.passes.count() < most;
        pass = rendered_.first_missing(pass + 1))
     order.passes.add({pass, pass + 1});

@@ -5,6 +5,7 @@
 
 #include "kaustik/render/session_monitor.h"
 #include "kaustik/render/team_messages.h"
+#include "kaustik/render/team_pace.h"
 
 namespace kaustik {
 
@@ -32,10 +33,12 @@ class Session::TeamRun {
   void take_reports(const std::vector<std::vector<uint8_t>>& reports);
   /// Where the error is looked at after these passes, in number of passes.
   static uint32_t next_look(uint32_t passes);
+  /// Seconds from one time that films are added up to the next.
+  double time_to_add_up() const;
   bool is_time_to_add_up() const;
   /// After passes, when the leader's film has all of them.
   void film_is_whole();
-  uint32_t passes_per_member(bool is_learning) const;
+  double next_round_s() const;
 
   Session& session_;
   Monitor& monitor_;
@@ -45,10 +48,10 @@ class Session::TeamRun {
   SharedLessons* lessons_;  ///< null: nothing is learned
 
   // The leader's
+  TeamPace pace_;
   PassSet rendered_;                ///< by all, and those that the film began with
   uint32_t elsewhere_ = 0;          ///< of them, that the leader's film has not
   uint32_t lessons_end_ = 0;        ///< passes before it go by what all members know
-  double slowest_s_ = 0;            ///< of the last round's passes
   double last_s_ = 0, took_s_ = 0;  ///< when films were added up, and how long that took
   bool is_stopped_ = false;         ///< somebody has cancelled
 };

@@ -13,12 +13,13 @@ struct TeamOrder {
   enum class Kind : uint8_t { render, add_up, end };
   Kind kind = Kind::end;
   SessionEnd end = SessionEnd::passes;
-  /// To be rendered: the i-th of them by the member of rank i mod the team's size.
-  PassSet passes;
+  PassSet passes;  ///< to be rendered
+  /// By rank, how many of them each member renders: the first ones the leader, and so on.
+  std::vector<uint32_t> shares;
   /// What they go by; empty: as before, or nothing is learned.
   Lessons lessons;
 
-  std::vector<uint32_t> of_member(uint32_t rank, uint32_t members) const;
+  std::vector<uint32_t> of_member(uint32_t rank) const;
   std::vector<uint8_t> bytes() const;
   /// Throws Error(input) if they are damaged.
   static TeamOrder from(const std::vector<uint8_t>& bytes);
@@ -31,7 +32,7 @@ struct TeamReport {
     std::vector<uint8_t> taught;  ///< SharedLessons::take_taught()
   };
   std::vector<DonePass> passes;
-  double slowest_s = 0;  ///< of these passes
+  double seconds = 0;  ///< that they took together
   bool is_stopped = false;
   uint64_t rays = 0, photons = 0, dropped = 0;
 
