@@ -90,17 +90,18 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
   const EmissionSampler& emission = job.aimed ? *aimed_emission_ : emission_;
   CameraSplats camera(scene_, job.wanted, job.count, splats);
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
+    const Wavelengths& wavelengths = pass.wavelengths[i % pass.wavelengths.count()];
     const uint64_t element = uint64_t(job.light) * 2 + (job.aimed ? 1 : 0);
     Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, element, i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted =
-        emission.sample(job.light, u_position, u_direction, sampler.next_1d(), pass.wavelengths);
+        emission.sample(job.light, u_position, u_direction, sampler.next_1d(), wavelengths);
     if (emitted.on_surface)
       camera.show_lamp(job.light, emitted.origin, emitted.pdf_position,
-                       {pass.wavelengths, sampler});
+                       {wavelengths, sampler});
     if (emitted.flux.is_zero() || maximum_events_ < 1) return std::nullopt;
     return LightPath(emitted.ray, emitted.flux, scene_.light_medium(job.light), Lobes::specular,
-                     sampler, pass.wavelengths);
+                     sampler, wavelengths);
   };
   const auto in_full = [](const auto&...) { return 1.0f; };
   const auto see = [&](const LightVertex& at) {

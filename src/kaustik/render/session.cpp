@@ -176,7 +176,7 @@ SessionReport Session::run(std::stop_token stop,
         end = cut_short();
       if (end && close_regions(*end)) break;
       if (end) continue;
-      const Pass pass{settings_.seed, next, samples_per_pass_, {}};
+      const Pass pass{settings_.seed, next, samples_per_pass_, wavelengths_of(next)};
       if (stop.stop_requested() || render_pass({pass, {}}, stop, monitor) != PassEnd::complete) {
         end = cut_short();
         break;
@@ -210,6 +210,13 @@ SessionReport Session::run(std::stop_token stop,
     report_.warnings.push_back(refused_rays_warning(refused));
   monitor.tell(Progress::Stage::done, true);
   return report_;
+}
+
+WavelengthSets Session::wavelengths_of(uint32_t index) const {
+  if (!scene_.film().is_spectral) return {};
+  const auto samples = size_t(samples_per_pass_);
+  const size_t count = std::min(samples, integrator_.traits().most_wavelength_sets);
+  return WavelengthSets::of_pass(settings_.seed, index, count);
 }
 
 std::string integrator_type(const Description& description, const Scene& scene) {

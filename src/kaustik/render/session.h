@@ -208,6 +208,8 @@ class Session {
       return !region || region->meets({first.x, first.y, PictureTiles::side, PictureTiles::side});
     }
   };
+  /// Number `index` of the picture or of a region.
+  WavelengthSets wavelengths_of(uint32_t index) const;
   enum class PassEnd { complete, incomplete, discarded };
   void plan();
   void plan_picture();
@@ -270,6 +272,7 @@ class Session {
   SessionSettings settings_;
   Film film_;
   SplatBuffer splats_;
+  Spectrum splat_balance_;            ///< WavelengthSets::balance() of the pass
   PassTiles pass_;                    ///< that is being rendered: sums, in finished tiles means
   std::vector<uint8_t> is_finished_;  ///< by tile
   uint32_t pass_count_ = 0;           ///< 0: limited by time or error

@@ -57,6 +57,7 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
   monitor.start_pass(task.region);
   const Pass& pass = task.pass;
   clear_pixels(monitor);
+  splat_balance_ = pass.wavelengths.balance();
   monitor.tell(Progress::Stage::light, false);
   std::stop_source halt;
   const std::stop_callback forward(stop, [&] { halt.request_stop(); });
@@ -290,7 +291,8 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, S
       Sampler sampler =
           Sampler::at(pass.seed, sequence, Stream::camera, address, samples.first_index + done);
       const Vec2f offset = film.filter.sample(sampler.next_2d());
-      SampleSink sink(integrator_.traits().components, pass.wavelengths, &scratch);
+      const size_t set = pass.wavelengths.of_sample(samples.first_index + done);
+      SampleSink sink(integrator_.traits().components, pass.wavelengths, &scratch, set);
       integrator_.sample(camera.state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y},
                          sampler, sink);
       rays += sink.rays();
@@ -310,7 +312,7 @@ PassPixel Session::finished(const PassPixel& pixel, int x, int y) const {
   if (pixel.samples > 0) add_scaled(pixel, 1.0f / float(pixel.samples), mean);
   for (int c = 0; c < component_count; ++c)
     if (integrator_.traits().splats && splats_.wants(Component(c)))
-      mean.radiance[size_t(c)] += splats_.value(x, y, Component(c));
+      mean.radiance[size_t(c)] += splats_.value(x, y, Component(c)) * splat_balance_;
   return mean;
 }
 

@@ -88,6 +88,7 @@ Session::PassEnd Session::render_regions(std::stop_token stop, Monitor& monitor,
         film_.next_regional_pass(*region, film_.passes().first_missing(settings_.first_pass));
     pass.seed = settings_.seed;
     pass.samples_per_pixel = samples_per_pass_;
+    pass.wavelengths = wavelengths_of(pass.index);
     if (render_pass({pass, region}, stop, monitor) != PassEnd::complete) return PassEnd::discarded;
     count_down(*region);
     monitor.regional_pass_done(*region, !next_region());
