@@ -259,7 +259,8 @@ class Session {
   void finish_tiles(const Task& task);
   /// Gives the pass's memory back, so that what looks at the film may use it.
   void forget_pass(Monitor& monitor);
-  void clear_pixels(Monitor& monitor);
+  /// Before a pass.
+  void clear_pixels(const Pass& next, Monitor& monitor);
   /// Now, and `extra` bytes beside.
   void note_memory(size_t extra = 0);
   /// Share of the pass's samples that its pixels have.

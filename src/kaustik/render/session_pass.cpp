@@ -56,8 +56,7 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
   if (stop.stop_requested()) return PassEnd::discarded;
   monitor.start_pass(task.region);
   const Pass& pass = task.pass;
-  clear_pixels(monitor);
-  splat_balance_ = pass.wavelengths.balance();
+  clear_pixels(pass, monitor);
   monitor.tell(Progress::Stage::light, false);
   std::stop_source halt;
   const std::stop_callback forward(stop, [&] { halt.request_stop(); });
@@ -126,8 +125,9 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
   return complete ? PassEnd::complete : PassEnd::incomplete;
 }
 
-void Session::clear_pixels(Monitor& monitor) {
+void Session::clear_pixels(const Pass& next, Monitor& monitor) {
   const std::lock_guard lock(picture_mutex_);
+  splat_balance_ = next.wavelengths.balance();
   has_picture_ = film_.pass_count() > 0;
   forget_pass(monitor);
 }
