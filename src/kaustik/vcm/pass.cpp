@@ -25,6 +25,13 @@ uint32_t VcmPass::light_paths_of_set() const {
   return (all + sets - 1) / sets;
 }
 
+std::vector<const LightVertices*> VcmPass::light_of_sets() const {
+  std::vector<const LightVertices*> result;
+  for (size_t set = 0; set < pass_.wavelengths.count(); ++set)
+    result.push_back(&sets_[set].vertices);
+  return result;
+}
+
 // Light of each set meets the samples of the same set alone, as if the set were a pass of its own.
 PathWeights VcmPass::make_weights() const {
   PathWeights::Settings weights;

@@ -42,6 +42,7 @@ class VcmPass {
   const Pass& pass() const { return pass_; }
   /// Of the first set of wavelengths.
   const LightVertices& light() const { return sets_[0].vertices; }
+  std::vector<const LightVertices*> light_of_sets() const;
 
  private:
   /// The light paths of a set of wavelengths, and what samples of the same set need of them.

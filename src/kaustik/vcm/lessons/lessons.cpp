@@ -73,7 +73,7 @@ void VcmLessons::take(const VcmPass& traced, const std::stop_token& stop, uint64
     if (stop.stop_requested()) return;
     sums.emplace_back(
         lesson.get(),
-        lesson->sums_of({.light = traced.light(), .places = places, .pairs = pairs}, stop));
+        lesson->sums_of({.light = traced.light_of_sets(), .places = places, .pairs = pairs}, stop));
   }
   if (stop.stop_requested()) return;
   for (const auto& [lesson, of_pass] : sums) lesson->add(passes_, *of_pass);
