@@ -67,16 +67,12 @@ const Object* bsdf_of_shape(const Object& shape) {
   return nullptr;
 }
 
-/// The index inside a body as a number, whether it was given as one, by a name, or not at all. What
-/// is neither number nor known name was told when the bsdf was made, and stays as it is.
+/// The index inside a body, whether it was given as a number, by a name, or not at all.
 Value interior_of(const Object& shape) {
   const Property* given = find_property(*bsdf_with_priority(shape), "int_ior");
   const Value value = given ? given->value : Value(std::string("bk7"));
   if (const auto* integer = std::get_if<int64_t>(&value)) return double(*integer);
-  const auto* name = std::get_if<std::string>(&value);
-  const std::vector<std::string> known = dielectric_names();
-  if (!name || std::find(known.begin(), known.end(), *name) == known.end()) return value;
-  return double(dielectric_ior(*name));
+  return value;
 }
 
 }  // namespace
