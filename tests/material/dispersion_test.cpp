@@ -1,4 +1,5 @@
-// Glasses whose index was measured: prisms, balls and drops send each wavelength where closed forms say.
+// Glasses whose index was measured: prisms, balls and drops send each wavelength where closed forms
+// say.
 
 #include <gtest/gtest.h>
 
@@ -25,11 +26,11 @@ TEST(dispersion, catalogues_have_these_indices_and_abbe_numbers) {
   };
   // Of the makers' and authors' tables.
   for (const auto& [name, n_d, abbe] :
-       {Listed{"bk7", 1.51680, 64.17}, Listed{"sf10", 1.72825, 28.41}, Listed{"sf11", 1.78472, 25.76},
-        Listed{"fused silica", 1.45846, 67.82}, Listed{"sapphire", 1.76817, 72.2}}) {
+       {Listed{"bk7", 1.51680, 64.17}, Listed{"sf10", 1.72825, 28.41},
+        Listed{"sf11", 1.78472, 25.76}, Listed{"fused silica", 1.45846, 67.82},
+        Listed{"sapphire", 1.76817, 72.2}}) {
     EXPECT_NEAR(index(name, 587.562), n_d, 2e-5) << name;
-    const double found =
-        (index(name, 587.562) - 1) / (index(name, 486.134) - index(name, 656.281));
+    const double found = (index(name, 587.562) - 1) / (index(name, 486.134) - index(name, 656.281));
     EXPECT_NEAR(found, abbe, 0.003 * abbe) << name;
   }
   EXPECT_NEAR(index("water", 589.3), 1.33335, 2e-5);
@@ -52,8 +53,8 @@ TEST(dispersion, rgb_mode_keeps_mitsubas_indices) {
   EXPECT_NEAR(named_ior("sf11").rgb()[0], 1.78446, 1e-5);
 }
 
-/// The direction in which one of the wavelengths goes on, where all arrive from `wo`, in the frame of
-/// the surface.
+/// The direction in which one of the wavelengths goes on, where all arrive from `wo`, in the frame
+/// of the surface.
 Vec3f refracted(const Bsdf& glass, const Wavelengths& wavelengths, int lane, const Vec3f& wo) {
   BsdfContext context({}, TransportMode::radiance, wavelengths.only(lane));
   const BsdfSample sample = glass.sample(context, wo, one_minus_epsilon, {0.5f, 0.5f}, Lobes::all);
@@ -102,8 +103,8 @@ double least_deviation(const Bsdf& water, const Wavelengths& four, int lane, int
   for (int i = 1; i < 4000; ++i) {
     const double incidence = std::asin(i / 4000.0);
     const double inside = refracted_angle(water, four, lane, incidence, true);
-    least = std::min(least, 2 * (incidence - inside) +
-                                reflections * (std::numbers::pi - 2 * inside));
+    least =
+        std::min(least, 2 * (incidence - inside) + reflections * (std::numbers::pi - 2 * inside));
   }
   return least;
 }
@@ -118,8 +119,7 @@ TEST(dispersion, rainbows_stand_where_they_stand_in_the_sky) {
       const double n = index("water", double(four[lane])), k = reflections;
       const double incidence = std::acos(std::sqrt((n * n - 1) / (k * k + 2 * k)));
       const double inside = std::asin(std::sin(incidence) / n);
-      const double expected =
-          2 * (incidence - inside) + k * (std::numbers::pi - 2 * inside);
+      const double expected = 2 * (incidence - inside) + k * (std::numbers::pi - 2 * inside);
       EXPECT_NEAR(least_deviation(*water, four, lane, reflections) / degree, expected / degree, 0.1)
           << four[lane] << ' ' << reflections;
     }

@@ -11,7 +11,13 @@ namespace {
 class Tabulated final : public SpectralFunction {
  public:
   Tabulated(SpectralCurve curve, bool is_zero_outside)
-      : samples_(std::move(curve.samples)), is_zero_outside_(is_zero_outside) {}
+      : samples_(std::move(curve.samples)), is_zero_outside_(is_zero_outside) {
+    const auto is_whole = [](const auto& sample) {
+      return sample.first == std::floor(sample.first);
+    };
+    if (!std::all_of(samples_.begin(), samples_.end(), is_whole)) return;
+    for (int nm = first_nm; nm <= last_nm; ++nm) by_nm_.push_back(float(at(nm)));
+  }
   double at(double nm) const override {
     if (is_zero_outside_ && !(nm >= samples_.front().first && nm <= samples_.back().first))
       return 0;
@@ -23,10 +29,25 @@ class Tabulated final : public SpectralFunction {
     const auto& [low_nm, low] = *(next - 1);
     return std::lerp(low, next->second, (nm - low_nm) / (next->first - low_nm));
   }
+  Spectrum at_lanes(const Wavelengths& wavelengths) const override {
+    if (by_nm_.empty()) return SpectralFunction::at_lanes(wavelengths);
+    Spectrum result;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+      const float x =
+          std::clamp(wavelengths[lane] - float(first_nm), 0.0f, float(last_nm - first_nm));
+      const size_t row = std::min(size_t(x), by_nm_.size() - 2);
+      result.set(lane, std::lerp(by_nm_[row], by_nm_[row + 1], x - float(row)));
+    }
+    return result;
+  }
 
  private:
+  static constexpr int first_nm = int(Wavelengths::first_nm), last_nm = int(Wavelengths::last_nm);
   std::vector<std::pair<double, double>> samples_;
   bool is_zero_outside_;
+  /// Of each nm from the first to the last, where all samples lie at whole ones; else empty. What
+  /// is zero outside falls to zero within 1 nm.
+  std::vector<float> by_nm_;
 };
 
 class Blackbody final : public SpectralFunction {

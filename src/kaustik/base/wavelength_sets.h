@@ -23,8 +23,8 @@ class WavelengthSets {
   bool is_rgb() const { return sets_[0].is_rgb(); }
   size_t count() const { return count_; }
   const Wavelengths& operator[](size_t set) const { return sets_[set]; }
-  /// The set of a pixel's camera sample. Of four sets two samples in succession, from an even number
-  /// on, have eight equidistant quantiles.
+  /// The set of a pixel's camera sample. Of four sets two samples in succession, from an even
+  /// number on, have eight equidistant quantiles.
   size_t of_sample(uint32_t index) const {
     constexpr std::array<uint8_t, most> order = {0, 2, 1, 3};
     return count_ == most ? order[index % most] : index % count_;

@@ -116,6 +116,7 @@ Wavelengths Wavelengths::only(int lane) const {
 }
 
 Spectrum rgb_from_wavelengths(const Spectrum& lanes, const Wavelengths& wavelengths) {
+  if (lanes.is_zero()) return Spectrum();  // most components of most samples
   const Rows rows(wavelengths);
   const auto channel = [&](size_t i) {
     return (lanes * rows.at_lanes([i](const Row& row) { return row.to_rgb[i]; })).sum();

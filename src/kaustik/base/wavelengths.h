@@ -17,8 +17,9 @@ class Wavelengths {
   Wavelengths() : nm_{0, 0, 0, 0} {}
   /// Four wavelengths, nm, above zero.
   Wavelengths(float a, float b, float c, float d) : nm_{a, b, c, d} {}
-  /// Four whose quantiles are a quarter apart, from `u` in [0, 1) on. Where `u` is uniform each lane
-  /// has the same density over the visible range, which is highest at 538 nm and small at the ends.
+  /// Four whose quantiles are a quarter apart, from `u` in [0, 1) on. Where `u` is uniform each
+  /// lane has the same density over the visible range, which is highest at 538 nm and small at the
+  /// ends.
   static Wavelengths spaced(float u);
 
   bool is_rgb() const { return nm_[0] == 0; }

@@ -14,8 +14,7 @@ Parameter ior_parameter(const std::string& name, std::string_view usual, const s
 /// Without the Abbe number.
 SpectralValue index_of(const Arguments& arguments, std::string_view name) {
   const auto value = arguments.number_or_name(name);
-  if (const auto* material = std::get_if<std::string>(&value))
-    return named_ior(*material);
+  if (const auto* material = std::get_if<std::string>(&value)) return named_ior(*material);
   return SpectralValue(float(std::get<double>(value)));
 }
 

@@ -60,9 +60,7 @@ class Cauchy final : public SpectralFunction {
  public:
   /// n = n_d at the helium d line, n_F − n_C = (n_d − 1)/abbe between hydrogen's F and C.
   Cauchy(double n_d, double abbe) : n_d_(n_d), slope_((n_d - 1) / abbe / (per_sq(f) - per_sq(c))) {}
-  double at(double nm) const override {
-    return n_d_ + slope_ * (per_sq(nm) - per_sq(d));
-  }
+  double at(double nm) const override { return n_d_ + slope_ * (per_sq(nm) - per_sq(d)); }
 
  private:
   static constexpr double f = 486.134, d = 587.562, c = 656.281;
