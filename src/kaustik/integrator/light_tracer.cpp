@@ -97,8 +97,7 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
     const EmittedRay emitted =
         emission.sample(job.light, u_position, u_direction, sampler.next_1d(), wavelengths);
     if (emitted.on_surface)
-      camera.show_lamp(job.light, emitted.origin, emitted.pdf_position,
-                       {wavelengths, sampler});
+      camera.show_lamp(job.light, emitted.origin, emitted.pdf_position, {wavelengths, sampler});
     if (emitted.flux.is_zero() || maximum_events_ < 1) return std::nullopt;
     return LightPath(emitted.ray, emitted.flux, scene_.light_medium(job.light), Lobes::specular,
                      sampler, wavelengths);

@@ -25,7 +25,7 @@ struct FilmSettings {
   Quantity quantity = Quantity::radiance;
   float exposure = 0;  ///< doublings of the light where it is shown; no change of the light itself
   bool is_spectral = false;  ///< light is followed at wavelengths, and not as red, green and blue
-  bool layers = true;  ///< images hold components, what is seen, errors and noise
+  bool layers = true;        ///< images hold components, what is seen, errors and noise
 };
 
 struct FilmType {

@@ -83,7 +83,8 @@ struct FirstHit {
 class SampleSink {
  public:
   /// For light of set number `set` of a pass's `wavelengths`. `scratch`, which must outlive this:
-  /// for all that finds it. Who takes many samples has one for all of them; null: one of this sample.
+  /// for all that finds it. Who takes many samples has one for all of them; null: one of this
+  /// sample.
   explicit SampleSink(ComponentSet wanted, const WavelengthSets& wavelengths = {},
                       Scratch* scratch = nullptr, size_t set = 0)
       : wanted_(wanted),

@@ -74,23 +74,23 @@ void VcmPass::trace_set(size_t set, const LightPathAims& aims, SplatBuffer& spla
   PathWeights::Settings traced = weights_.settings();
   traced.techniques.splats = traced.techniques.splats && aims.splats;
   traced.techniques.connections = traced.techniques.connections && aims.connections;
-  light.vertices = trace_light_vertices(
-      {.scene = scene_,
-       .emission = *plans_->guides.emission,
-       .weights = PathWeights(traced),
-       .components = settings_.components,
-       .maximum_events = settings_.maximum_events,
-       .light_paths = light_paths_of_set(),
-       .set = set,
-       .camera_samples = pass_.samples_per_set(),
-       .plans = plans_->pixels,
-       .shrinkage = shrinkage_,
-       .remembered_paths = aims.remembered_paths,
-       .media = media_,
-       .scattering = plans_->guides.scattering.get(),
-       .remembers_scattering = plans_->guides.scattering != nullptr,
-       .gauges = gauges_.empty() ? nullptr : &gauges_},
-      pass_, Stream::light_path, splats, stop, progress, report);
+  light.vertices =
+      trace_light_vertices({.scene = scene_,
+                            .emission = *plans_->guides.emission,
+                            .weights = PathWeights(traced),
+                            .components = settings_.components,
+                            .maximum_events = settings_.maximum_events,
+                            .light_paths = light_paths_of_set(),
+                            .set = set,
+                            .camera_samples = pass_.samples_per_set(),
+                            .plans = plans_->pixels,
+                            .shrinkage = shrinkage_,
+                            .remembered_paths = aims.remembered_paths,
+                            .media = media_,
+                            .scattering = plans_->guides.scattering.get(),
+                            .remembers_scattering = plans_->guides.scattering != nullptr,
+                            .gauges = gauges_.empty() ? nullptr : &gauges_},
+                           pass_, Stream::light_path, splats, stop, progress, report);
   if (plans_->techniques.merging) {
     light.matt = MattMerging(light.vertices, weights_, stop);
     light.tails = LightTails(light.vertices, weights_, stop);
