@@ -137,7 +137,7 @@ def equal_time(bench, seconds):
           f" `auto` of another seed after {8 * seconds} s:\n")
     print("| scene | auto | path | ratio | of auto's that is the reference's noise |\n|---|---|---|---|---|")
     scenes = {
-        "prism": (ROOT / "scenes/prism/prism.xml", ["-D", "size=320", "--set", "film.height=200"]),
+        "prism": (ROOT / "scenes/prism/prism.xml", ["-D", "size=320", "-D", "height=200"]),
         "diamonds": (ROOT / "scenes/examples/jewel.xml",
                      ["-D", "size=240", "-D", "colour=0, 0, 0", "--set", "polish.int_ior=diamond", "--spectral"]),
     }

@@ -93,6 +93,14 @@ TEST(wavelength_sets, colours_are_near_from_the_first_pass_on) {
   EXPECT_GT(worst_of_one, 0.05);
 }
 
+TEST(wavelength_sets, what_was_given_is_the_same_in_every_pass) {
+  const WavelengthSets given(Wavelengths(440, 500, 580, 660));
+  EXPECT_TRUE(given.of_other_pass(1, 7) == given);
+  EXPECT_TRUE(WavelengthSets().of_other_pass(1, 7).is_rgb());
+  EXPECT_TRUE(WavelengthSets::of_pass(1, 0, 3).of_other_pass(1, 7) ==
+              WavelengthSets::of_pass(1, 7, 3));
+}
+
 TEST(wavelength_sets, seeds_and_passes_differ) {
   EXPECT_FALSE(WavelengthSets::of_pass(1, 0) == WavelengthSets::of_pass(2, 0));
   EXPECT_FALSE(WavelengthSets::of_pass(1, 0) == WavelengthSets::of_pass(1, 1));

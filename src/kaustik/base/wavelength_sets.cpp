@@ -32,6 +32,7 @@ WavelengthSets WavelengthSets::of_pass(uint64_t seed, uint32_t pass, size_t coun
   const double first = (shift_of(seed) + radical_inverse(pass & 0x7fffffff)) * step;
   WavelengthSets result;
   result.count_ = count;
+  result.are_given_ = false;
   Spectrum white;
   for (size_t set = 0; set < count; ++set) {
     const double quantile = std::fmod(first + double(set) * step, 1 / lanes);

@@ -19,6 +19,10 @@ class WavelengthSets {
       : sets_{only, only, only, only} {}
   /// `count` sets, 1 to `most`, of pass number `pass` of a seed. Passes stratify one another.
   static WavelengthSets of_pass(uint64_t seed, uint32_t pass, size_t count = most);
+  /// Those that another pass has where this one has these: of_pass(), or the same if they were given.
+  WavelengthSets of_other_pass(uint64_t seed, uint32_t pass) const {
+    return are_given_ ? *this : of_pass(seed, pass, count_);
+  }
 
   bool is_rgb() const { return sets_[0].is_rgb(); }
   size_t count() const { return count_; }
@@ -41,6 +45,7 @@ class WavelengthSets {
  private:
   std::array<Wavelengths, most> sets_;
   size_t count_ = 1;
+  bool are_given_ = true;
   Spectrum balance_ = Spectrum(1);
 };
 

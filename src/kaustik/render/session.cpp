@@ -9,6 +9,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
+#include "kaustik/render/pass_wavelengths.h"
 #include "kaustik/render/session_monitor.h"
 #include "kaustik/scene/scene_report.h"
 
@@ -213,10 +214,8 @@ SessionReport Session::run(std::stop_token stop,
 }
 
 WavelengthSets Session::wavelengths_of(uint32_t index) const {
-  if (!scene_.film().is_spectral) return {};
-  const auto samples = size_t(samples_per_pass_);
-  const size_t count = std::min(samples, integrator_.traits().most_wavelength_sets);
-  return WavelengthSets::of_pass(settings_.seed, index, count);
+  return wavelengths_of_pass(scene_.film(), integrator_.traits(), settings_.seed, index,
+                             samples_per_pass_);
 }
 
 std::string integrator_type(const Description& description, const Scene& scene) {

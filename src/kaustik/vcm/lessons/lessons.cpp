@@ -110,6 +110,7 @@ uint32_t VcmLessons::make_up(const Pass& pass, uint32_t until, const std::stop_t
   for (uint32_t i = 0; i < count && !stop.stop_requested(); ++i) {
     Pass missing = pass;
     missing.index = passes_;
+    missing.wavelengths = pass.wavelengths.of_other_pass(pass.seed, passes_);
     trace_next(missing, stop, part_of(progress, i, count + 1), report);
   }
   return count;
