@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -192,12 +191,6 @@ std::vector<std::string> ProgramTest::files() const {
 
 RunResult ProgramTest::run(const std::vector<std::string>& arguments, RunOptions options) const {
   options.folder = folder_.string();
-  const bool is_first = commands_.insert(arguments.empty() ? "" : arguments.front()).second;
-  if (slow_build && !is_first) {
-    const char* given = std::getenv("ASAN_OPTIONS");
-    options.environment.push_back("ASAN_OPTIONS=" + std::string(given ? given : "") +
-                                  ":detect_leaks=0");
-  }
   const RunResult result = run_kaustik(arguments, options);
   EXPECT_FALSE(result.timed_out) << result.err;
   return result;

@@ -7,17 +7,14 @@
 
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 namespace kaustik::test {
 
 #ifdef KAUSTIK_SLOW_BUILD
-inline constexpr bool slow_build = true;
 inline constexpr double patience_s = 300;
 #else
-inline constexpr bool slow_build = false;
 inline constexpr double patience_s = 60;
 #endif
 
@@ -57,9 +54,7 @@ struct RunResult {
 /// Runs `kaustik` with these arguments and waits for its end; kills it after the timeout.
 RunResult run_kaustik(const std::vector<std::string>& arguments, const RunOptions& options);
 
-/// A folder of its own for each test, in which the program runs. Leaks are looked for when a test
-/// runs a command for the first time: with sanitizers that is a quarter of what starting the
-/// program takes.
+/// A folder of its own for each test, in which the program runs.
 class ProgramTest : public ::testing::Test {
  protected:
   ProgramTest();
@@ -79,7 +74,6 @@ class ProgramTest : public ::testing::Test {
 
  private:
   std::filesystem::path folder_;
-  mutable std::set<std::string> commands_;  ///< that have run
 };
 
 bool contains(const std::string& text, const std::string& part);
