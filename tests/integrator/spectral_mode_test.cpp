@@ -52,6 +52,25 @@ Image picture(const std::string& scene_text, const std::string& type, uint32_t s
   return session.film().image();
 }
 
+/// Ratio of red to blue, pixel by pixel.
+std::vector<double> hues_of(const Passes& passes) {
+  std::vector<double> red(144), blue(144), result;
+  for (const Image& image : passes.images())
+    for (int y = 0; y < 12; ++y)
+      for (int x = 0; x < 12; ++x) {
+        red[size_t(12 * y + x)] += double(image.at(x, y, 0));
+        blue[size_t(12 * y + x)] += double(image.at(x, y, 2));
+      }
+  for (size_t i = 0; i < red.size(); ++i) result.push_back((red[i] + 1e-3) / (blue[i] + 1e-3));
+  return result;
+}
+
+double difference_of_hues(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += std::fabs(std::log(a[i] / b[i]));
+  return sum / double(a.size());
+}
+
 void expect_near(const Rgb& found, const Rgb& expected, double tolerance) {
   EXPECT_NEAR(found.r, expected.r, tolerance);
   EXPECT_NEAR(found.g, expected.g, tolerance);
@@ -77,23 +96,20 @@ TEST(SpectralMode, EveryMethodFindsTheSameLightBehindGlassThatDisperses) {
 
 // The picture of the methods above could be that of glass that does not disperse.
 TEST(SpectralMode, DispersionShows) {
-  const auto caustic = [](const std::string& mode) {
-    const TestScene scene(in_mode(flint_ball(12), mode));
+  const auto hues = [](const std::string& index, uint64_t seed) {
+    std::string text = in_mode(flint_ball(12), "spectral");
+    const std::string name = "<string name=\"int_ior\" value=\"sf11\"/>";
+    text.replace(text.find(name), name.size(), index);
+    const TestScene scene(text);
     RenderOptions options;
     options.samples = 40;
-    return render(scene, "auto", "", options).images().front();
+    options.seed = seed;
+    return hues_of(render(scene, "auto", "", options));
   };
-  const Image rgb = caustic("rgb"), spectral = caustic("spectral");
-  double difference = 0, sum = 0;
-  for (int y = 0; y < 12; ++y)
-    for (int x = 0; x < 12; ++x) {
-      const auto chroma = [&](const Image& image) {
-        return double(image.at(x, y, 0)) / double(image.at(x, y, 1) + 1e-3f);
-      };
-      difference += std::fabs(chroma(rgb) - chroma(spectral));
-      sum += chroma(rgb);
-    }
-  EXPECT_GT(difference / sum, 0.005);
+  const std::string one_index = set("int_ior", 1.78446);
+  const auto even = hues(one_index, 1), again = hues(one_index, 2);
+  const auto dispersed = hues(set("int_ior", "sf11"), 3);
+  EXPECT_GT(difference_of_hues(even, dispersed), 3 * difference_of_hues(even, again));
 }
 
 TEST(SpectralMode, GreyIsGreyFromTheFirstPassOn) {
@@ -121,6 +137,14 @@ TEST(SpectralMode, ColoursAreThoseOfRgbMode) {
     expect_near(mean_of(picture(in_mode(sunlit_wall(reflectance), "spectral"), "path", 4, 1)), rgb,
                 0.02);
   }
+}
+
+// Whatever the number of samples, all sets count alike.
+TEST(SpectralMode, AnyNumberOfSamplesHasTheSameColour) {
+  const std::string wall = in_mode(sunlit_wall("0.6, 0.1, 0.05"), "spectral");
+  for (const char* type : {"path", "auto", "vcm"})
+    for (const uint32_t samples : {1u, 2u, 3u, 5u, 6u})
+      expect_near(mean_of(picture(wall, type, samples, 128)), {0.6, 0.1, 0.05}, 0.004);
 }
 
 TEST(SpectralMode, LayersAreRgb) {

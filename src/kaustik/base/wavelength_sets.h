@@ -19,7 +19,8 @@ class WavelengthSets {
       : sets_{only, only, only, only} {}
   /// `count` sets, 1 to `most`, of pass number `pass` of a seed. Passes stratify one another.
   static WavelengthSets of_pass(uint64_t seed, uint32_t pass, size_t count = most);
-  /// Those that another pass has where this one has these: of_pass(), or the same if they were given.
+  /// Those that another pass has where this one has these: of_pass(), or the same if they were
+  /// given.
   WavelengthSets of_other_pass(uint64_t seed, uint32_t pass) const {
     return are_given_ ? *this : of_pass(seed, pass, count_);
   }
@@ -27,9 +28,12 @@ class WavelengthSets {
   bool is_rgb() const { return sets_[0].is_rgb(); }
   size_t count() const { return count_; }
   const Wavelengths& operator[](size_t set) const { return sets_[set]; }
-  /// The set of a pixel's camera sample. Of four sets two samples in succession, from an even
-  /// number on, have eight equidistant quantiles.
-  size_t of_sample(uint32_t index) const {
+  /// The set of sample number `sample` of a pixel, where `first` is evenly random and independent
+  /// of the pass's wavelengths: then pixels with fewer samples than sets, or with any other number,
+  /// see all sets alike in the mean. Of four sets two samples in succession, from an even sum of
+  /// both numbers on, have eight equidistant quantiles.
+  size_t of_sample(uint32_t first, uint32_t sample) const {
+    const size_t index = first % count_ + sample;
     constexpr std::array<uint8_t, most> order = {0, 2, 1, 3};
     return count_ == most ? order[index % most] : index % count_;
   }

@@ -28,7 +28,7 @@ struct Row {
   std::array<float, 3> basis;   ///< reflectances of red, green and blue
   float d65;                    ///< of the luminance 1
   std::array<float, 3> to_rgb;  ///< what a lane of one adds to red, green and blue
-  float unused;
+  float unused;                 ///< so that a row has 32 bytes
 };
 
 std::array<double, 3> basis_at(int nm) {

@@ -90,8 +90,10 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
   const EmissionSampler& emission = job.aimed ? *aimed_emission_ : emission_;
   CameraSplats camera(scene_, job.wanted, job.count, splats);
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
-    const Wavelengths& wavelengths = pass.wavelengths[i % pass.wavelengths.count()];
     const uint64_t element = uint64_t(job.light) * 2 + (job.aimed ? 1 : 0);
+    // Sets follow one another from one by chance on: of few paths each is as likely to have any.
+    const auto first_set = uint32_t(hash_mix(hash_mix(pass.seed, pass.index), element) >> 32);
+    const Wavelengths& wavelengths = pass.wavelengths[pass.wavelengths.of_sample(first_set, i)];
     Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, element, i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted =

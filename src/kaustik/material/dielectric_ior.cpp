@@ -60,9 +60,13 @@ class Cauchy final : public SpectralFunction {
  public:
   /// n = n_d at the helium d line, n_F − n_C = (n_d − 1)/abbe between hydrogen's F and C.
   Cauchy(double n_d, double abbe) : n_d_(n_d), slope_((n_d - 1) / abbe / (per_sq(f) - per_sq(c))) {}
-  double at(double nm) const override { return n_d_ + slope_ * (per_sq(nm) - per_sq(d)); }
+  double at(double nm) const override {
+    // Of an index below 1 with a small Abbe number nothing would be left.
+    return std::max(least, n_d_ + slope_ * (per_sq(nm) - per_sq(d)));
+  }
 
  private:
+  static constexpr double least = 0.05;
   static constexpr double f = 486.134, d = 587.562, c = 656.281;
   static constexpr double per_sq(double nm) { return 1 / (nm * nm); }
   double n_d_, slope_;

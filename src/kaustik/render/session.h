@@ -273,7 +273,7 @@ class Session {
   SessionSettings settings_;
   Film film_;
   SplatBuffer splats_;
-  Spectrum splat_balance_;            ///< WavelengthSets::balance() of the pass
+  Spectrum splat_balance_{1};         ///< WavelengthSets::balance() of the pass
   PassTiles pass_;                    ///< that is being rendered: sums, in finished tiles means
   std::vector<uint8_t> is_finished_;  ///< by tile
   uint32_t pass_count_ = 0;           ///< 0: limited by time or error

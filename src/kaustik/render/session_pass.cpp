@@ -280,6 +280,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, S
   if (samples.count > end && !camera.more) camera.more = true;
   end = std::min(end, samples.count);
   if (x % samples_per_look == 0) camera.look_at_clock();
+  const auto first_set = uint32_t(hash_mix(hash_mix(pass.seed, pass.index), address) >> 32);
   uint64_t rays = 0;
   uint32_t done = sum.samples;
   while (done < end && !camera.halts()) {
@@ -291,7 +292,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, S
       Sampler sampler =
           Sampler::at(pass.seed, sequence, Stream::camera, address, samples.first_index + done);
       const Vec2f offset = film.filter.sample(sampler.next_2d());
-      const size_t set = pass.wavelengths.of_sample(samples.first_index + done);
+      const size_t set = pass.wavelengths.of_sample(first_set, done);
       SampleSink sink(integrator_.traits().components, pass.wavelengths, &scratch, set);
       integrator_.sample(camera.state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y},
                          sampler, sink);

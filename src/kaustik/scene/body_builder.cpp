@@ -75,6 +75,16 @@ Value interior_of(const Object& shape) {
   return value;
 }
 
+/// The same as a number, that of RGB mode. What is neither number nor known name was told when the
+/// bsdf was made.
+std::optional<float> number_of_index(const Value& index) {
+  if (const auto* number = std::get_if<double>(&index)) return float(*number);
+  const auto* name = std::get_if<std::string>(&index);
+  const std::vector<std::string> known = dielectric_names();
+  if (!name || std::find(known.begin(), known.end(), *name) == known.end()) return std::nullopt;
+  return dielectric_ior(*name);
+}
+
 }  // namespace
 
 std::vector<uint32_t> SceneBuilder::find_bodies() {
@@ -118,10 +128,11 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_within(const BuiltShape& shape,
                                                       const Object& around) {
   static const Object nothing{"bsdf", "null", "", {}, {}, {}};
   const Value exterior = interior_of(around);
-  // Between two bodies of the same index, as single floats tell, there is nothing to see.
-  const Value interior = interior_of(*shape.object);
-  const auto *outside = std::get_if<double>(&exterior), *inside = std::get_if<double>(&interior);
-  if (outside && inside && float(*outside) == float(*inside)) return create_bsdf(nothing, nullptr);
+  // Between two bodies of the same index, as single floats tell, there is nothing to see; not even
+  // where one of them disperses.
+  const auto outside = number_of_index(exterior),
+             inside = number_of_index(interior_of(*shape.object));
+  if (outside && inside && *outside == *inside) return create_bsdf(nothing, nullptr);
   Copies copies;
   bordering_.push_back(bordering_on(*bsdf_of_shape(*shape.object), exterior, copies));
   return create_bsdf(*bordering_.back(), &shape);

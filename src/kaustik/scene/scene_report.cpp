@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "kaustik/light/measured_light.h"
 #include "kaustik/light/sun_position.h"
 #include "kaustik/light/sunsky_light.h"
 #include "kaustik/scene/look_through.h"
@@ -144,6 +145,9 @@ void describe_lights(const Scene& scene, SceneReport& report) {
     report.lines.push_back(fmt::format("light {:<4} {}, {:.4g} {:.4g} {:.4g} W", index, where,
                                        rgb[0], rgb[1], rgb[2]));
     if (const auto sun = sun_place(*light)) report.lines.push_back(sun_line(*sun));
+    if (const auto* measured = dynamic_cast<const MeasuredLight*>(light.get());
+        measured && !measured->report().empty())
+      report.lines.push_back(fmt::format("           {}", measured->report()));
     if (!(power > 0))
       report.warnings.push_back(fmt::format("light {} ({}) has no power", index, where));
     ++index;

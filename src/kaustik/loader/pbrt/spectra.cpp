@@ -95,7 +95,7 @@ std::optional<double> abbe_of_index(const Value& value) {
   if (!curve || curve->samples.empty()) return std::nullopt;
   // Hydrogen's F and C.
   const double spread = at_wavelength(*curve, 486.1) - at_wavelength(*curve, 656.3);
-  if (!(spread > 0)) return std::nullopt;
+  if (!(spread > 0 && number_of_index(value) > 1)) return std::nullopt;
   return std::clamp((number_of_index(value) - 1) / spread, 1.0, 1000.0);
 }
 
