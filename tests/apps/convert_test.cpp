@@ -223,7 +223,10 @@ TEST_F(Convert, ASignalLeavesAllOrNothing) {
   const RunResult result = run({"convert", "s.pbrt", "-o", "s.xml"}, how);
   const size_t all = 2 + meshes;
   EXPECT_EQ(files().size(), exists("s.xml") ? all : 1u) << result.err;
-  EXPECT_EQ(result.exit_code, exists("s.xml") ? 0 : 75) << result.err;
+  // Before it has begun to write and after the last file a signal ends it as usual.
+  if (result.signal != SIGTERM) {
+    EXPECT_EQ(result.exit_code, exists("s.xml") ? 0 : 75) << result.err;
+  }
 }
 
 }  // namespace
