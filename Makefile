@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long test-cluster coverage thesis bench bench-cluster bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package package-test docs format clean
+.PHONY: all setup configure build render test test-long test-cluster coverage thesis bench bench-cluster bench-spectral bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package package-test docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -63,6 +63,11 @@ bench: configure
 	@cmake --build --preset release --target kaustik benchmarks
 	@scripts/install_packages.sh bench
 	@scripts/run_benchmarks.sh $(BUILD)
+
+# Spectral mode: colours, cost beside RGB mode, auto beside path. Some minutes.
+bench-spectral: configure
+	@cmake --build --preset release --target kaustik
+	scripts/bench_spectral.py --program $(program)
 
 # Every method on every scene over time, hours; what is in out/bench_scenes.jsonl is not run again.
 # Lists have commas: make bench-scenes SCENES=metal_ring,peer_ring INTEGRATORS=path,vcm SECONDS=5,10 SEEDS=1,2

@@ -19,6 +19,8 @@ add_compile_options(-ffp-contract=off -fno-math-errno)
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 if(KAUSTIK_SANITIZE STREQUAL "address")
   set(kaustik_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all)
+  # Half a million addresses would be moved at each start of a program, and tests start it thousands of times.
+  add_link_options($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-no-pie>)
   # Where memory behind a null pointer or beyond an object is used, the address sanitizer stops, too. Only null
   # pointers that become references and are never used go unseen. Without these two checks programs take a fifth
   # less time to build and a quarter less to run.
@@ -34,6 +36,11 @@ endif()
 if(kaustik_sanitizers)
   add_compile_options(${kaustik_sanitizers} -fno-omit-frame-pointer)
   add_link_options(${kaustik_sanitizers})
+  find_program(KAUSTIK_LLD ld.lld)
+  mark_as_advanced(KAUSTIK_LLD)
+  if(KAUSTIK_LLD AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    add_link_options(-fuse-ld=lld)  # half the time
+  endif()
 endif()
 if(KAUSTIK_COVERAGE)
   add_compile_options(-fprofile-instr-generate -fcoverage-mapping)

@@ -6,7 +6,7 @@ set -euo pipefail
 build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
   libpng-dev libjpeg62-turbo-dev libwebp-dev libhwy-dev libpugixml-dev zlib1g-dev libcli11-dev libfmt-dev libgtest-dev libnanoflann-dev nlohmann-json3-dev libdraco-dev
   libboost1.81-dev)
-check=(clang clang-format libclang-rt-14-dev)
+check=(clang clang-format lld libclang-rt-14-dev)
 coverage=(llvm-14)
 package=(dpkg-dev file patchelf)
 package_test=(qemu-user)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Turns data/*.csv into the generated sources of the CIE tables and of the metals."""
+"""Turns data/*.csv into the generated sources of the CIE tables, of the metals and of the glasses."""
 import csv
 import pathlib
 import sys
@@ -59,10 +59,28 @@ def metal_data():
     return text + "  };\n  return metals;\n}\n\n}  // namespace kaustik\n"
 
 
+def glass_data():
+    """A name may stand for the same table as another one's: Mitsuba's names of materials."""
+    aliases = {"fused silica": ["fused quartz"]}
+    lines = []
+    for row in rows_of("sellmeier.csv"):
+        terms = ", ".join(f"{{{row[f'B{i}']}, {row[f'C{i}_um2']}}}" for i in range(1, 5))
+        lines += [f'    {{"{name}", {row["A"]}, {{{{{terms}}}}}}},'
+                  for name in [row["name"], *aliases.get(row["name"], [])]]
+    return (
+        NOTE.format("sellmeier.csv")
+        + '#include "kaustik/material/glass_data.h"\n\nnamespace kaustik {\n\n'
+        + "std::span<const MeasuredGlass> measured_glasses() {\n"
+        + "  static const MeasuredGlass glasses[] = {\n" + "\n".join(lines)
+        + "\n  };\n  return glasses;\n}\n\n}  // namespace kaustik\n"
+    )
+
+
 def main():
     source = ROOT / "src" / "kaustik"
     (source / "base" / "color_data.cpp").write_text(color_data())
     (source / "material" / "metal_data.cpp").write_text(metal_data())
+    (source / "material" / "glass_data.cpp").write_text(glass_data())
 
 
 if __name__ == "__main__":

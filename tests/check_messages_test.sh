@@ -7,12 +7,15 @@ trap 'rm -rf "$copy"' EXIT
 # shellcheck source=tests/support/planted_mistakes.sh
 source "$root/tests/support/planted_mistakes.sh"
 
+cp -r "$root"/{src,apps} "$copy"
+
 # check FILE LINE: what the check says of the sources with LINE at the end of FILE.
 check() {
-  rm -rf "${copy:?}"/*
-  cp -r "$root"/{src,apps} "$copy"
+  local status=0
   printf '\n%s\n' "$2" >>"$copy/$1"
-  "$root"/scripts/check_messages.sh "$copy"
+  "$root"/scripts/check_messages.sh "$copy" || status=$?
+  cp "$root/$1" "$copy/$1"
+  return $status
 }
 
 plant() { must_be_refused "$1:$(($(wc -l <"$root/$1") + 2)): " check "$1" "$2"; }

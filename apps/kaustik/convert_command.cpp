@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "exit_codes.h"
 #include "file_roles.h"
 #include "kaustik/base/file.h"
 #include "kaustik/integrator/description_types.h"
@@ -22,6 +23,7 @@
 #include "render_job.h"
 #include "scene_options.h"
 #include "screen.h"
+#include "signals.h"
 #include "standard_streams.h"
 
 namespace kaustik::app {
@@ -33,7 +35,8 @@ struct ConvertOptions {
   bool is_strict = false, force = false;
 };
 
-/// Removes again what it has put where nothing was, unless all is done.
+/// Removes again what it has put where nothing was, unless all is done. A signal ends the program
+/// between two files.
 class NewFiles {
  public:
   NewFiles() = default;
@@ -44,7 +47,9 @@ class NewFiles {
   NewFiles(const NewFiles&) = delete;
   NewFiles& operator=(const NewFiles&) = delete;
 
+  /// Throws EndedEarly where a signal has come.
   void write(const std::string& path, std::span<const uint8_t> bytes) {
+    if (!first_signal_name().empty()) throw EndedEarly{};
     std::error_code unknown;
     const bool is_new = !std::filesystem::exists(path, unknown);
     write_file_atomically(path, bytes);
@@ -53,6 +58,7 @@ class NewFiles {
   void keep() { paths_.clear(); }
 
  private:
+  const InterruptGuard interrupt_;
   std::vector<std::string> paths_;
 };
 

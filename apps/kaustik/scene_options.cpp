@@ -75,6 +75,9 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings,
   command.add_option("--set", settings, "Change a parameter: " + examples)
       ->type_name("OBJECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
+  command.add_flag_callback(
+      "--spectral", [&settings] { settings.emplace_back("film.color=spectral"); },
+      "Follow light at wavelengths: glass disperses, measured spectra count as they are");
 }
 
 std::vector<std::string> integrator_names() {

@@ -20,7 +20,8 @@ void add_definitions(CLI::App& command, std::vector<std::string>& definitions);
 void add_camera(CLI::App& command, std::string& camera);
 /// --strict.
 void add_strict(CLI::App& command, bool& is_strict);
-/// --set: "object.parameter=value"; `examples` are for people.
+/// --set: "object.parameter=value", and --spectral, which is one of them; `examples` are for
+/// people.
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
                   const std::string& examples);
 

@@ -26,7 +26,7 @@ void PhotonPicture::add(const Vec3f& position, const Vec3f& color) {
   const CameraConnection seen = scene_.camera().connect(position, Camera::middle_of_lens());
   if (!(seen.importance > 0)) return;
   // Photons lie on surfaces: a thousandth before the point nothing of that surface is in the way.
-  Ray ray(seen.lens, seen.direction * -1.0f);
+  Ray ray{seen.lens, seen.direction * -1.0f};
   ray.t_max = seen.distance * 0.999f;
   if (scene_.occluded(ray)) return;
   const int x0 = int(std::floor(seen.raster.x - dot_radius)),

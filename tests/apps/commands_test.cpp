@@ -39,10 +39,13 @@ std::vector<const TypeInfo*> registered_types() {
 
 TEST_F(Commands, HelpKnowsEveryTypeAndParameter) {
   const std::string all = run_well({"help"}).out;
+  size_t index = 0;
   for (const TypeInfo* info : registered_types()) {
     SCOPED_TRACE(info->family + " " + info->name);
     EXPECT_TRUE(contains(all, "  " + info->name + " "));
     EXPECT_TRUE(contains(all, info->sentence));
+    // One way prints them all. With sanitizers the program takes long to start.
+    if (slow_build && index++ % 8 != 0) continue;
     const std::string text = run_well({"help", info->name}).out;
     EXPECT_TRUE(contains(text, info->family + " type=\"" + info->name + "\""));
     for (const Parameter& parameter : info->parameters) {
@@ -154,6 +157,24 @@ TEST_F(Commands, InfoTellsWhatIsThere) {
   EXPECT_TRUE(contains(text, "surface 'lamp', 16.08")) << text;  // 8 π 0.64 W
   EXPECT_TRUE(contains(text, "field of view 40° × 40°")) << text;
   EXPECT_FALSE(contains(text, "warning")) << text;
+}
+
+TEST_F(Commands, InfoTellsWhereLampsAndSunAre) {
+  SceneParts parts;
+  parts.inside =
+      "<emitter type=\"sunsky\"><float name=\"latitude\" value=\"52.52\"/>"
+      "<float name=\"longitude\" value=\"13.4\"/><float name=\"timezone\" value=\"2\"/>"
+      "<integer name=\"year\" value=\"2026\"/><integer name=\"month\" value=\"6\"/>"
+      "<integer name=\"day\" value=\"21\"/><float name=\"hour\" value=\"9\"/>"
+      "<transform name=\"to_world\"><rotate z=\"1\" angle=\"180\"/></transform></emitter>"
+      "<shape type=\"disk\"><emitter type=\"area\"/></shape>";
+  write("day.xml", scene_with(parts));
+  const std::string text = run_well({"info", "day.xml"}).out;
+  EXPECT_TRUE(contains(
+      text, "\nsun        35.3° high, 97.0° from north by east; toward -0.099, 0.81, 0.577\n"))
+      << text;
+  EXPECT_TRUE(contains(text, " shape 'disk' on line 2, ")) << text;
+  EXPECT_TRUE(contains(text, " at 0, 0, 2, ")) << text;
 }
 
 TEST_F(Commands, InfoWarnsOfWhatCannotWork) {

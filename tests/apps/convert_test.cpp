@@ -209,5 +209,25 @@ TEST_F(Convert, SkiesAndPatternsOfRadianceAreFiles) {
   EXPECT_LT(difference("old.rif", "new.xml"), 1e-6);
 }
 
+// A signal that comes between two of its files leaves none of them.
+TEST_F(Convert, ASignalLeavesAllOrNothing) {
+  std::string scene = "WorldBegin\nLightSource \"lava\"\n";
+  constexpr int meshes = 400;
+  for (int i = 0; i < meshes; ++i)
+    scene += "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [0 0 0 1 0 0 0 1 " +
+             std::to_string(i + 1) + "]\n";
+  write("s.pbrt", scene);
+  RunOptions how;
+  how.interrupt_at = "lava";
+  how.signals = {SIGTERM};
+  const RunResult result = run({"convert", "s.pbrt", "-o", "s.xml"}, how);
+  const size_t all = 2 + meshes;
+  EXPECT_EQ(files().size(), exists("s.xml") ? all : 1u) << result.err;
+  // Before it has begun to write and after the last file a signal ends it as usual.
+  if (result.signal != SIGTERM) {
+    EXPECT_EQ(result.exit_code, exists("s.xml") ? 0 : 75) << result.err;
+  }
+}
+
 }  // namespace
 }  // namespace kaustik::test

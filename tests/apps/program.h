@@ -13,8 +13,10 @@
 namespace kaustik::test {
 
 #ifdef KAUSTIK_SLOW_BUILD
+inline constexpr bool slow_build = true;
 inline constexpr double patience_s = 300;
 #else
+inline constexpr bool slow_build = false;
 inline constexpr double patience_s = 60;
 #endif
 

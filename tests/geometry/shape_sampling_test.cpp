@@ -54,7 +54,8 @@ double uniformity(const Shape& shape, float tilt) {
                 e2 = mesh.positions[t[2]] - p0;
     const double area = 0.5 * double(length(cross(e1, e2)));
     total += area;
-    const int parts = std::clamp(int(5e6 / double(mesh.triangles.size())), 20, 400000);
+    const int parts =
+        std::clamp(int(5e6 / samples_divisor / double(mesh.triangles.size())), 20, 400000);
     const int side = std::max(2, int(std::sqrt(parts)));
     for (int i = 0; i < side; ++i)
       for (int j = 0; j < side; ++j) {

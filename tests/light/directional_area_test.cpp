@@ -82,7 +82,7 @@ TEST(DirectionalArea, EmitsAlongItsNormal) {
     });
   };
   EXPECT_GT(p_value(false), failure_level);
-  expect_twin_fails(p_value(true));
+  expect_twin_fails([&] { return p_value(true); });
   Random random(63);
   for (int i = 0; i < 1000; ++i) {
     const EmissionSample s = light->sample_emission(random.next_2d(), random.next_2d(), {});

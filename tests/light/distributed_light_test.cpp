@@ -46,7 +46,8 @@ TEST(DistributedLight, IsSampledInTheConeThatItFills) {
   const auto density = [&](const Vec3f&) { return double(pdf); };
   const int count = 500'000 / sample_share;
   EXPECT_GT(direction_p_value(grid, count, sample, density), failure_level);
-  expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, density)));
+  expect_twin_fails(
+      [&] { return direction_p_value(grid, count, sample, with_planted_error(grid, density)); });
 }
 
 /// W/m² on a surface that faces the light's centre.

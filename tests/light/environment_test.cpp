@@ -104,7 +104,8 @@ TEST(Environment, DirectionsFollowTheirDensity) {
       const auto pdf = [&](const Vec3f& d) { return double(test.light->pdf_toward(query, d)); };
       const int count = 500'000 / sample_share;
       EXPECT_GT(direction_p_value({}, count, sample, pdf), failure_level);
-      expect_twin_fails(direction_p_value({}, count, sample, with_planted_error({}, pdf)));
+      expect_twin_fails(
+          [&] { return direction_p_value({}, count, sample, with_planted_error({}, pdf)); });
     }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/light/light_testing.h"
+#include "tests/light/photometric_samples.h"
 
 namespace kaustik {
 namespace {
@@ -30,6 +31,12 @@ std::vector<IrradianceCase> lights_at_the_origin() {
   cases.push_back(
       {"projector", make_light("projector", {{"fov", Value(100.0), {}}, {"to_world", aimed, {}}},
                                nullptr, test_bounds(), fields_pattern())});
+  const auto lobes = [](double c, double v) { return v < 80 ? 200 + c : 0; };
+  cases.push_back(
+      {"luminaire",
+       make_light("goniometric",
+                  {{"profile", Value(ies_text(even_angles(0, 90, 9), {0, 60, 180}, lobes)), {}},
+                   {"to_world", aimed, {}}})});
   cases.push_back({"directional", make_light("directional", {{"irradiance", colored, {}}})});
   cases.push_back({"constant", make_light("constant", radiance)});
   cases.push_back({"disk", make_light("area", radiance, make_disk({0, 0, 0}, {0, 0, 1}, 0.5f))});

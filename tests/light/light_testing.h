@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <concepts>
 #include <functional>
 #include <memory>
 #include <string>
@@ -28,6 +29,12 @@ inline void expect_twin_fails(double p_value) {
   if (twins_can_fail) {
     EXPECT_LT(p_value, failure_level);
   }
+}
+
+/// The same of a check that takes long: it is not made where it need not fail.
+template <std::invocable Check>
+void expect_twin_fails(const Check& check) {
+  if (twins_can_fail) expect_twin_fails(double(check()));
 }
 
 /// Independent uniform numbers.

@@ -75,7 +75,8 @@ TEST(SampleToward, AreaLightsFollowTheirDensity) {
     const auto pdf = [&](const Vec3f& d) { return density_toward(*light, tracer, d); };
     const int count = 1'000'000 / sample_share;
     EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
-    expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
+    expect_twin_fails(
+        [&] { return direction_p_value(grid, count, sample, with_planted_error(grid, pdf)); });
   }
 }
 
@@ -163,7 +164,8 @@ TEST(SampleToward, TheEnvironmentIsUniform) {
   const auto pdf = [&](const Vec3f& d) { return double(light->pdf_toward(reference, d)); };
   const int count = 1'000'000 / sample_share;
   EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
-  expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
+  expect_twin_fails(
+      [&] { return direction_p_value(grid, count, sample, with_planted_error(grid, pdf)); });
   const LightSample s = light->sample_toward(reference, {0.3f, 0.6f});
   EXPECT_EQ(s.distance, infinity);
   EXPECT_FALSE(s.delta);

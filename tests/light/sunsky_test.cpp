@@ -8,6 +8,7 @@
 #include "kaustik/image/photometry.h"
 #include "kaustik/light/clear_sky.h"
 #include "kaustik/light/sun_position.h"
+#include "kaustik/light/sunsky_light.h"
 #include "tests/light/light_testing.h"
 
 namespace kaustik {
@@ -17,14 +18,7 @@ using namespace kaustik::testing;
 
 constexpr double degree = std::numbers::pi / 180;
 
-struct Horizontal {
-  double elevation, azimuth;  ///< degrees, azimuth from north by east
-};
-Horizontal horizontal(const PlaceAndTime& at) {
-  const Vec3d d = sun_direction_at(at);
-  const double azimuth = std::atan2(-d.y, -d.x) / degree;
-  return {std::asin(d.z) / degree, azimuth < 0 ? azimuth + 360 : azimuth};
-}
+Horizontal sun_at(const PlaceAndTime& at) { return horizontal(sun_direction_at(at)); }
 
 TEST(SunPosition, AgreesWithTheReferenceAlgorithm) {
   // The example of Reda and Andreas, "Solar Position Algorithm", NREL/TP-560-34302: zenith angle
@@ -37,8 +31,8 @@ TEST(SunPosition, AgreesWithTheReferenceAlgorithm) {
   at.month = 10;
   at.day = 17;
   at.hour = 12 + 30.0 / 60 + 30.0 / 3600;
-  const Horizontal sun = horizontal(at);
-  EXPECT_NEAR(sun.elevation, 90 - 50.11162 - 0.016, 0.02);
+  const Horizontal sun = sun_at(at);
+  EXPECT_NEAR(sun.altitude, 90 - 50.11162 - 0.016, 0.02);
   EXPECT_NEAR(sun.azimuth, 194.34024, 0.02);
 }
 
@@ -49,14 +43,53 @@ TEST(SunPosition, StandsOverTheTropicAtMidsummer) {
   at.month = 6;
   at.day = 21;
   at.hour = 12 + 2.0 / 60;  // the clock is two minutes ahead of the sun on that day
-  EXPECT_GT(horizontal(at).elevation, 89.8);
+  EXPECT_GT(sun_at(at).altitude, 89.8);
   at.hour = 0;
-  EXPECT_LT(horizontal(at).elevation, -40);
+  EXPECT_LT(sun_at(at).altitude, -40);
   // East in the morning, west in the evening.
   at.hour = 8;
-  EXPECT_LT(horizontal(at).azimuth, 180);
+  EXPECT_LT(sun_at(at).azimuth, 180);
   at.hour = 16;
-  EXPECT_GT(horizontal(at).azimuth, 180);
+  EXPECT_GT(sun_at(at).azimuth, 180);
+}
+
+TEST(SunPosition, IsToldOnTheGround) {
+  // The morning of docs/guides/interior.md. At the solstice the declination is 23.44° and the clock
+  // 1.8 minutes ahead of the sun, so the hour angle is -62.05°.
+  const double latitude = 52.52 * degree, declination = 23.44 * degree, hour = -62.05 * degree;
+  const double altitude = std::asin(std::sin(latitude) * std::sin(declination) +
+                                    std::cos(latitude) * std::cos(declination) * std::cos(hour));
+  const double east = -std::cos(declination) * std::sin(hour) / std::cos(altitude);
+  const Horizontal berlin = sun_at({52.52, 13.40, 2, 2026, 6, 21, 9});
+  EXPECT_NEAR(berlin.altitude, altitude / degree, 0.05);
+  EXPECT_NEAR(berlin.azimuth, 180 - std::asin(east) / degree, 0.2);
+  // The horizon, all around.
+  const auto azimuth = [](double x, double y) { return horizontal({x, y, 0}).azimuth; };
+  EXPECT_NEAR(azimuth(-1, 0), 0, 1e-9);
+  EXPECT_NEAR(azimuth(0, -1), 90, 1e-9);
+  EXPECT_NEAR(azimuth(1, 0), 180, 1e-9);
+  EXPECT_NEAR(azimuth(0, 1), 270, 1e-9);
+}
+
+TEST(SunPlace, IsThatOfTheDayInTheWorld) {
+  const auto placed = [](const std::vector<Property>& more) {
+    std::vector<Property> all = {
+        {"latitude", Value(52.52), {}},   {"longitude", Value(13.40), {}},
+        {"timezone", Value(2.0), {}},     {"year", Value(int64_t(2026)), {}},
+        {"month", Value(int64_t(6)), {}}, {"day", Value(int64_t(21)), {}},
+        {"hour", Value(9.0), {}}};
+    all.insert(all.end(), more.begin(), more.end());
+    return sun_place(*make_light("sunsky", all)).value();
+  };
+  const Vec3d expected = sun_direction_at({52.52, 13.40, 2, 2026, 6, 21, 9});
+  EXPECT_LT((placed({}).by_compass - expected).length(), 1e-6);
+  EXPECT_LT(length(placed({}).in_world - Vec3f(expected)), 1e-6f);
+  // East is +y after half a turn about the zenith.
+  const SunPlace turned = placed({{"to_world", Value(Transform::rotate({0, 0, 1}, 180)), {}}});
+  EXPECT_LT((turned.by_compass - expected).length(), 1e-6);
+  EXPECT_NEAR(turned.in_world.y, -expected.y, 1e-6);
+  EXPECT_GT(turned.in_world.y, 0.7f);
+  EXPECT_FALSE(sun_place(*make_light("constant", {})));
 }
 
 TEST(SunPosition, KnowsTheCalendar) {

@@ -1,6 +1,7 @@
 // Lights at four wavelengths, against closed forms.
 #include "kaustik/base/spectral_value.h"
 #include "tests/light/light_testing.h"
+#include "tests/light/photometric_samples.h"
 
 namespace kaustik {
 namespace {
@@ -51,6 +52,12 @@ TEST(LightWavelengths, PlacedLightsSendTheirCurve) {
   const auto projector = make_light("projector", {{"irradiance", Value(ramp), {}}});
   expect_lanes(projector->emitted({}, {0, 0, 1}, four), ramp_lanes * pi);
   expect_lanes(projector->sample_toward(before, {}).radiance, ramp_lanes * (pi / 4));
+
+  const std::string even = ies_text({0, 180}, {0}, [](double, double) { return 179; });
+  const auto luminaire =
+      make_light("goniometric", {{"profile", Value(even), {}}, {"intensity", Value(ramp), {}}});
+  expect_lanes(luminaire->emitted({}, {0, 0, 1}, four), ramp_lanes);
+  expect_lanes(luminaire->sample_toward(before, {}).radiance, ramp_lanes * 0.25f);
 
   const auto area =
       make_light("area", {{"radiance", Value(ramp), {}}}, make_disk({0, 0, 0}, {0, 0, -1}, 0.5f));

@@ -345,6 +345,14 @@ TEST(GltfMaterials, WithoutItsShareASheetIsOpaque) {
             "twosided");
 }
 
+TEST(GltfMaterials, GlassDispersesByItsAbbeNumber) {
+  const GltfMaterial glass(
+      R"("pbrMetallicRoughness":{"roughnessFactor":0,"metallicFactor":0},"extensions":{
+         "KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_volume":{"thicknessFactor":1},
+         "KHR_materials_dispersion":{"dispersion":0.5}})");
+  EXPECT_EQ(std::get<double>(find_property(glass.bsdf(), "abbe_number")->value), 40);
+}
+
 TEST(GltfMaterials, WhatIsNotRenderedIsTold) {
   const auto tells = [](const std::string& members, const std::string& text,
                         DeviationKind kind = DeviationKind::ignored) {

@@ -99,6 +99,8 @@ TEST(MitsubaErrors, Colors) {
   expect_wrong({"<spectrum name='x' value='1 2 3'/>", "2:27", "three numbers, not", "<rgb>"});
   expect_wrong({"<spectrum name='x' value='1 2'/>", "2:27", "not a pair", "<rgb>"});
   expect_wrong({"<spectrum name='x' value='#ff0000'/>", "2:27", "a colour, not", "<rgb>"});
+  expect_wrong({"<spectrum name='x' value='0.4:1, 0.7:2'/>", "2:27", "end at 0.7 nm",
+                "a micrometre has 1000"});
   expect_wrong({"<spectrum name='x' value='400:1, 400:2'/>", "2:27", "wavelength 400 follows 400",
                 "increasing"});
   expect_wrong({"<spectrum name='x' value='-4:1'/>", "2:27", "wavelength -4 is not", "nanometres"});

@@ -63,7 +63,12 @@ TEST(PbrtMaterials, DielectricsBorderOnNothing) {
   const Description named = parse_scene_of_pbrt(
       "WorldBegin Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" Shape \"sphere\"");
   EXPECT_NEAR(value<double>(*bsdf_of(named), "int_ior"), 1.5168, 1e-4);
-  EXPECT_TRUE(is_approximated(named, "dielectric", "disperses"));
+  EXPECT_NEAR(value<double>(*bsdf_of(named), "abbe_number"), 64.17, 1e-9);
+  EXPECT_TRUE(is_approximated(named, "dielectric", "Abbe number"));
+  const auto curve =
+      material("Material \"dielectric\" \"spectrum eta\" [ 486.1 1.62 587.6 1.61 656.3 1.60 ]");
+  EXPECT_NEAR(value<double>(*curve, "int_ior"), 1.61, 1e-6);
+  EXPECT_NEAR(value<double>(*curve, "abbe_number"), 30.5, 1e-6);
 }
 
 TEST(PbrtMaterials, DiffuseTransmission) {

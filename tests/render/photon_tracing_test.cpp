@@ -39,6 +39,19 @@ TEST(PhotonTracing, FollowsTheIntegratorsParameters) {
   EXPECT_GT(traced.photons.maps.global.size(), 1000u);
 }
 
+TEST(PhotonTracing, FilesHoldRedGreenAndBlueAlone) {
+  Description description = described(photonmap);
+  for (const Child& child : description.scene->children)
+    if (child.object->family == "sensor") {
+      auto film = std::make_shared<Object>(Object{"film", "hdrfilm", "", {}, {}, {}});
+      film->properties.push_back({"color", std::string("spectral"), {}});
+      child.object->children.push_back({"", film});
+    }
+  const auto scene = build_scene(description);
+  ASSERT_TRUE(scene->film().is_spectral);
+  EXPECT_THROW(trace_photon_maps(description, *scene, 7, 0), Error);
+}
+
 TEST(PhotonTracing, AnotherIntegratorStaysAndDefaultsServe) {
   const Description description =
       described("<integrator type=\"path\"><integer name=\"max_depth\" value=\"4\"/></integrator>");

@@ -593,6 +593,10 @@ TEST(BuildScene, FilesThatAreNotThereLeaveStandIns) {
                           "<float name=\"scale\" value=\"3\"/></emitter>";
   expect_one(lenient_warnings(sky), "no file 'no.exr': even light stands for it");
   EXPECT_EQ(scene_of(sky)->lights().size(), 1u);
+  const std::string luminaire = camera + sphere + "<emitter type=\"goniometric\">" +
+                                file("no.ies") + "<float name=\"scale\" value=\"2\"/></emitter>";
+  expect_one(lenient_warnings(luminaire), "no file 'no.ies': a point of 1000 cd stands for it");
+  EXPECT_NEAR(scene_of(luminaire)->lights()[0]->emitted({}, {0, 0, 1}, {})[1], 2000. / 179, 1e-4);
 }
 
 class CountingObserver final : public RayObserver {

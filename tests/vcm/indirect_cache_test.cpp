@@ -34,7 +34,7 @@ Served served_by(const Scene& scene, int maximum_events, uint32_t passes) {
                          .light = no_light,
                          .focused = nothing_focused,
                          .maximum_events = maximum_events},
-                        {0, pass, 1}, 128);
+                        {0, pass, 1}, 0, 128);
     for (int round = 0; round < IndirectCache::most_rounds; ++round) cache.fill_round({});
     double sum = 0;
     int found = 0;
@@ -125,7 +125,7 @@ TEST(IndirectCache, HasTheLightThatMirrorsShow) {
     const LightVertices no_light;
     const SidedTree<LightVertexData> nothing_focused;
     IndirectCache cache({.scene = scene.scene(), .light = no_light, .focused = nothing_focused},
-                        {0, 0, 1}, 128);
+                        {0, 0, 1}, 0, 128);
     for (int round = 0; round < IndirectCache::most_rounds; ++round) cache.fill_round({});
     int served = 0, mirrored = 0;
     double sum = 0;
@@ -168,7 +168,7 @@ TEST(CacheTrial, KnowsTheVarianceOfCaches) {
   double rays = 0;
   constexpr uint32_t passes = slow_build ? 6 : 24;
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    IndirectCache cache(inputs, {5 + pass, 0, 1}, gather_rays);
+    IndirectCache cache(inputs, {5 + pass, 0, 1}, 0, gather_rays);
     cache.fill_round({});
     rays += double(cache.rays()) / passes;
     for (size_t i = 0; i < probes; ++i) {

@@ -200,7 +200,7 @@ TEST_F(LessonEpochs, SumsComeBack) {
                                          .take = take},
                                         places, {});
       const auto sums =
-          here[i]->sums_of({.light = taught->light(), .places = places, .pairs = pairs}, {});
+          here[i]->sums_of({.light = {&taught->light()}, .places = places, .pairs = pairs}, {});
       ByteWriter writer;
       sums->write(writer);
       ByteReader reader(writer.bytes(), "sums");

@@ -3,11 +3,15 @@
 
 namespace kaustik {
 
+/// Factor on the plain sum of lanes in lane_sum(), for who asks for many of the same wavelengths.
+inline float lane_sum_scale(const Wavelengths& wavelengths) {
+  return wavelengths.is_rgb() ? 1.0f : 3 / white_light(wavelengths).sum();
+}
+
 /// How much light the lanes hold, as one number to compare and to learn by: the sum of red, green
 /// and blue. Of wavelengths the sum of the lanes, in such a unit that white light has as much.
 inline float lane_sum(const Spectrum& lanes, const Wavelengths& wavelengths) {
-  if (wavelengths.is_rgb()) return lanes.sum();
-  return 3 * lanes.sum() / white_light(wavelengths).sum();
+  return lanes.sum() * lane_sum_scale(wavelengths);
 }
 
 }  // namespace kaustik

@@ -11,7 +11,13 @@ namespace {
 class Tabulated final : public SpectralFunction {
  public:
   Tabulated(SpectralCurve curve, bool is_zero_outside)
-      : samples_(std::move(curve.samples)), is_zero_outside_(is_zero_outside) {}
+      : samples_(std::move(curve.samples)), is_zero_outside_(is_zero_outside) {
+    const auto is_whole = [](const auto& sample) {
+      return sample.first == std::floor(sample.first);
+    };
+    if (!std::all_of(samples_.begin(), samples_.end(), is_whole)) return;
+    for (int nm = first_nm; nm <= last_nm; ++nm) by_nm_.push_back(float(at(nm)));
+  }
   double at(double nm) const override {
     if (is_zero_outside_ && !(nm >= samples_.front().first && nm <= samples_.back().first))
       return 0;
@@ -23,10 +29,25 @@ class Tabulated final : public SpectralFunction {
     const auto& [low_nm, low] = *(next - 1);
     return std::lerp(low, next->second, (nm - low_nm) / (next->first - low_nm));
   }
+  Spectrum at_lanes(const Wavelengths& wavelengths) const override {
+    if (by_nm_.empty()) return SpectralFunction::at_lanes(wavelengths);
+    Spectrum result;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+      const float x =
+          std::clamp(wavelengths[lane] - float(first_nm), 0.0f, float(last_nm - first_nm));
+      const size_t row = std::min(size_t(x), by_nm_.size() - 2);
+      result.set(lane, std::lerp(by_nm_[row], by_nm_[row + 1], x - float(row)));
+    }
+    return result;
+  }
 
  private:
+  static constexpr int first_nm = int(Wavelengths::first_nm), last_nm = int(Wavelengths::last_nm);
   std::vector<std::pair<double, double>> samples_;
   bool is_zero_outside_;
+  /// Of each nm from the first to the last, where all samples lie at whole ones; else empty. What
+  /// is zero outside falls to zero within 1 nm.
+  std::vector<float> by_nm_;
 };
 
 class Blackbody final : public SpectralFunction {
@@ -43,28 +64,43 @@ class Blackbody final : public SpectralFunction {
   double kelvin_;
 };
 
-/// By a formula.
-class Computed final : public SpectralFunction {
+/// Of two values, lane by lane.
+template <typename Combine>
+class Combined final : public SpectralFunction {
  public:
-  using Formula = std::function<double(double)>;
-  explicit Computed(Formula formula) : formula_(std::move(formula)) {}
-  double at(double nm) const override { return formula_(nm); }
+  Combined(SpectralValue a, SpectralValue b) : a_(std::move(a)), b_(std::move(b)) {}
+  double at(double nm) const override {
+    const auto x = float(nm);
+    return double(at_lanes({x, x, x, x})[0]);
+  }
+  Spectrum at_lanes(const Wavelengths& wavelengths) const override {
+    return Combine()(a_.at(wavelengths), b_.at(wavelengths));
+  }
 
  private:
-  Formula formula_;
+  SpectralValue a_, b_;
 };
 
-SpectralFunctionPointer computed(Computed::Formula formula) {
-  return std::make_shared<Computed>(std::move(formula));
-}
-
-/// Of a function that takes lanes.
-SpectralFunctionPointer by_lanes(const Spectrum& rgb,
-                                 Spectrum (*lanes)(const Spectrum&, const Wavelengths&)) {
-  return computed([rgb, lanes](double nm) {
+/// Of a colour, by a function that takes lanes.
+class OfColor final : public SpectralFunction {
+ public:
+  using Lanes = Spectrum (*)(const Spectrum& rgb, const Wavelengths& wavelengths);
+  OfColor(const Spectrum& rgb, Lanes lanes) : rgb_(rgb), lanes_(lanes) {}
+  double at(double nm) const override {
     const auto x = float(nm);
-    return double(lanes(rgb, Wavelengths(x, x, x, x))[0]);
-  });
+    return double(at_lanes({x, x, x, x})[0]);
+  }
+  Spectrum at_lanes(const Wavelengths& wavelengths) const override {
+    return lanes_(rgb_, wavelengths);
+  }
+
+ private:
+  Spectrum rgb_;
+  Lanes lanes_;
+};
+
+SpectralFunctionPointer by_lanes(const Spectrum& rgb, OfColor::Lanes lanes) {
+  return std::make_shared<OfColor>(rgb, lanes);
 }
 
 bool is_grey(const Rgb& c) { return c.r == c.g && c.g == c.b; }
@@ -123,14 +159,14 @@ SpectralValue operator*(const SpectralValue& a, const SpectralValue& b) {
   const Spectrum rgb = a.rgb_ * b.rgb_;
   if (a.is_constant() && b.is_constant())
     return SpectralValue(a.constant_ * b.constant_).with_rgb(rgb);
-  return {rgb, computed([a, b](double nm) { return a.value_at(nm) * b.value_at(nm); })};
+  return {rgb, std::make_shared<Combined<std::multiplies<>>>(a, b)};
 }
 
 SpectralValue operator+(const SpectralValue& a, const SpectralValue& b) {
   const Spectrum rgb = a.rgb_ + b.rgb_;
   if (a.is_constant() && b.is_constant())
     return SpectralValue(a.constant_ + b.constant_).with_rgb(rgb);
-  return {rgb, computed([a, b](double nm) { return a.value_at(nm) + b.value_at(nm); })};
+  return {rgb, std::make_shared<Combined<std::plus<>>>(a, b)};
 }
 
 SpectralValue SpectralValue::with_rgb(const Spectrum& rgb) const {
@@ -140,11 +176,7 @@ SpectralValue SpectralValue::with_rgb(const Spectrum& rgb) const {
 }
 
 Spectrum SpectralValue::at_wavelengths(const Wavelengths& wavelengths) const {
-  if (!function_) return Spectrum(constant_);
-  Spectrum result;
-  for (int i = 0; i < Spectrum::lane_count; ++i)
-    result.set(i, float(function_->at(double(wavelengths[i]))));
-  return result;
+  return function_ ? function_->at_lanes(wavelengths) : Spectrum(constant_);
 }
 
 }  // namespace kaustik

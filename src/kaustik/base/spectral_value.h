@@ -13,6 +13,13 @@ class SpectralFunction {
   virtual ~SpectralFunction() = default;
   /// `nm`: the wavelength in vacuum.
   virtual double at(double nm) const = 0;
+  /// The same of all lanes, which some know sooner together. Not in RGB mode.
+  virtual Spectrum at_lanes(const Wavelengths& wavelengths) const {
+    Spectrum result;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+      result.set(lane, float(at(double(wavelengths[lane]))));
+    return result;
+  }
 };
 using SpectralFunctionPointer = std::shared_ptr<const SpectralFunction>;
 
@@ -65,7 +72,6 @@ class SpectralValue {
 
  private:
   Spectrum at_wavelengths(const Wavelengths& wavelengths) const;
-  double value_at(double nm) const { return function_ ? function_->at(nm) : double(constant_); }
 
   Spectrum rgb_;
   float constant_ = 0;                ///< if there is no function

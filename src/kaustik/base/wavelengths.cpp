@@ -4,88 +4,105 @@
 #include <cassert>
 
 #include "kaustik/base/color.h"
+#include "kaustik/base/reflectance_basis.h"
 
 namespace kaustik {
 namespace {
 
-using Matrix = std::array<std::array<double, 3>, 3>;
+constexpr int first = int(Wavelengths::first_nm), last = int(Wavelengths::last_nm);
+constexpr size_t knots = last - first + 1;  ///< one for each nm
 
-/// Ends of the two lower bands, nm. Between them each band's colour under D65 lies outside of
-/// Rec. 709, so that every colour of Rec. 709 is a mean of the three.
-constexpr double last_blue_nm = 493.5, last_green_nm = 590.5;
+/// The density of wavelengths but for a factor, 1/cosh²(steepness (λ − centre)), as in pbrt-v4:
+/// smooth and small at both ends, so that few equidistant wavelengths integrate colours well.
+constexpr double centre_nm = 538, steepness = 0.0072;
+double quantile_scale(double nm) { return std::tanh(steepness * (nm - centre_nm)); }
+const double lowest = quantile_scale(first), quantile_range = quantile_scale(last) - lowest;
 
-int band_of(double nm) { return nm < last_blue_nm ? 0 : nm < last_green_nm ? 1 : 2; }
-
-/// What a band reflects, as channels.
-std::array<double, 3> channels_of_band(int band) {
-  std::array<double, 3> sum{}, all{};
-  for (int nm = int(Wavelengths::first_nm); nm <= int(Wavelengths::last_nm); ++nm) {
-    const Rgb c = rgb_from_xyz(cie_xyz_at(nm) * d65_at(nm));
-    const std::array<double, 3> channels = {c.r, c.g, c.b};
-    for (size_t i = 0; i < 3; ++i) {
-      all[i] += channels[i];
-      if (band_of(nm) == band) sum[i] += channels[i];
-    }
-  }
-  for (size_t i = 0; i < 3; ++i) sum[i] /= all[i];
-  return sum;
+double density(double nm) {
+  const double cosh = std::cosh(steepness * (nm - centre_nm));
+  return steepness / (cosh * cosh * quantile_range);
 }
 
-/// By Cramer's rule.
-Matrix inverse(const Matrix& m) {
-  Matrix result;
-  const auto minor = [&](size_t r, size_t c) {
-    const size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-    return m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
-  };
-  const double det = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
-  for (size_t r = 0; r < 3; ++r)
-    for (size_t c = 0; c < 3; ++c) result[r][c] = minor(c, r) / det;
+/// What is known of a wavelength.
+struct Row {
+  std::array<float, 3> basis;   ///< reflectances of red, green and blue
+  float d65;                    ///< of the luminance 1
+  std::array<float, 3> to_rgb;  ///< what a lane of one adds to red, green and blue
+  float unused;                 ///< so that a row has 32 bytes
+};
+
+std::array<double, 3> basis_at(int nm) {
+  const double at = double(nm - first) / 5;
+  const size_t row = std::min(size_t(at), std::size(reflectance_basis_5nm) - 2);
+  std::array<double, 3> result{};
+  for (size_t i = 0; i < 3; ++i)
+    result[i] = std::lerp(reflectance_basis_5nm[row][i], reflectance_basis_5nm[row + 1][i],
+                          at - double(row));
   return result;
 }
 
-/// Row by row what a band reflects of red, green and blue: shares, at least 0, that add up to 1.
-const Matrix& bands() {
-  static const Matrix shares = [] {
-    Matrix channels;
-    for (int band = 0; band < 3; ++band) {
-      const auto c = channels_of_band(band);
-      for (size_t i = 0; i < 3; ++i) channels[i][size_t(band)] = c[i];
+std::array<Row, knots> make_rows() {
+  // ∫ of the eye's sensitivity and of what it sees of D65, in steps of 1 nm.
+  double luminance_of_one = 0;
+  Vec3d of_d65(0, 0, 0);
+  for (int nm = first; nm <= last; ++nm) {
+    luminance_of_one += cie_xyz_at(nm).y;
+    of_d65 += cie_xyz_at(nm) * d65_at(nm);
+  }
+  const double d65_scale = luminance_of_one / of_d65.y;
+  // The matrix to Rec. 709 has not quite the white of the tables.
+  const Rgb white = rgb_from_xyz(of_d65 * (1 / of_d65.y));
+  std::array<Row, knots> rows{};
+  for (size_t i = 0; i < knots; ++i) {
+    const int nm = first + int(i);
+    const std::array<double, 3> basis = basis_at(nm);
+    const Rgb seen = rgb_from_xyz(cie_xyz_at(nm));
+    const double scale = 1 / (Spectrum::lane_count * density(nm) * luminance_of_one);
+    rows[i] = {.basis = {float(basis[0]), float(basis[1]), float(basis[2])},
+               .d65 = float(d65_at(nm) * d65_scale),
+               .to_rgb = {float(seen.r * scale / white.r), float(seen.g * scale / white.g),
+                          float(seen.b * scale / white.b)},
+               .unused = 0};
+  }
+  return rows;
+}
+
+/// Between two rows of the table, for each lane.
+class Rows {
+ public:
+  explicit Rows(const Wavelengths& wavelengths) {
+    static const std::array<Row, knots> all = make_rows();
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+      const float at = std::clamp(wavelengths[lane] - float(first), 0.0f, float(knots - 1));
+      const size_t row = std::min(size_t(at), knots - 2);
+      rows_[size_t(lane)] = &all[row];
+      weights_.set(lane, at - float(row));
     }
-    return inverse(channels);
-  }();
-  return shares;
-}
+  }
+  /// Of each lane, `get` of its row.
+  template <typename Get>
+  Spectrum at_lanes(const Get& get) const {
+    Spectrum low, high;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+      low.set(lane, get(rows_[size_t(lane)][0]));
+      high.set(lane, get(rows_[size_t(lane)][1]));
+    }
+    return low + (high - low) * weights_;
+  }
 
-/// ∫ of the eye's sensitivity, in steps of 1 nm.
-double luminance_of_one() {
-  static const double integral = [] {
-    double sum = 0;
-    for (int nm = int(Wavelengths::first_nm); nm <= int(Wavelengths::last_nm); ++nm)
-      sum += cie_xyz_at(nm).y;
-    return sum;
-  }();
-  return integral;
-}
-
-double luminance_of_d65() {
-  static const double integral = [] {
-    double sum = 0;
-    for (int nm = int(Wavelengths::first_nm); nm <= int(Wavelengths::last_nm); ++nm)
-      sum += cie_xyz_at(nm).y * d65_at(nm);
-    return sum;
-  }();
-  return integral;
-}
-
-constexpr float range_nm = Wavelengths::last_nm - Wavelengths::first_nm;
+ private:
+  std::array<const Row*, size_t(Spectrum::lane_count)> rows_;
+  Spectrum weights_;
+};
 
 }  // namespace
 
 Wavelengths Wavelengths::spaced(float u) {
   const auto at = [u](float shift) {
     const float x = u + shift;
-    return first_nm + range_nm * (x < 1 ? x : x - 1);
+    const double quantile = double(x < 1 ? x : x - 1);
+    const double nm = centre_nm + std::atanh(lowest + quantile_range * quantile) / steepness;
+    return std::clamp(float(nm), first_nm, last_nm);
   };
   return {at(0), at(0.25f), at(0.5f), at(0.75f)};
 }
@@ -99,30 +116,24 @@ Wavelengths Wavelengths::only(int lane) const {
 }
 
 Spectrum rgb_from_wavelengths(const Spectrum& lanes, const Wavelengths& wavelengths) {
-  Vec3d xyz(0, 0, 0);
-  for (int i = 0; i < Spectrum::lane_count; ++i)
-    xyz += cie_xyz_at(double(wavelengths[i])) * double(lanes[i]);
-  const Rgb c =
-      rgb_from_xyz(xyz * (double(range_nm) / (Spectrum::lane_count * luminance_of_one())));
-  return spectrum_from_rgb(float(c.r), float(c.g), float(c.b));
+  if (lanes.is_zero()) return Spectrum();  // most components of most samples
+  const Rows rows(wavelengths);
+  const auto channel = [&](size_t i) {
+    return (lanes * rows.at_lanes([i](const Row& row) { return row.to_rgb[i]; })).sum();
+  };
+  return spectrum_from_rgb(channel(0), channel(1), channel(2));
 }
 
 Spectrum reflectance_at_wavelengths(const Spectrum& rgb, const Wavelengths& wavelengths) {
-  Spectrum result;
-  for (int i = 0; i < Spectrum::lane_count; ++i) {
-    const std::array<double, 3>& share = bands()[size_t(band_of(double(wavelengths[i])))];
-    result.set(i, float(share[0] * double(rgb[0]) + share[1] * double(rgb[1]) +
-                        share[2] * double(rgb[2])));
-  }
+  const Rows rows(wavelengths);
+  Spectrum result = rgb[0] * rows.at_lanes([](const Row& row) { return row.basis[0]; });
+  result += rgb[1] * rows.at_lanes([](const Row& row) { return row.basis[1]; });
+  result += rgb[2] * rows.at_lanes([](const Row& row) { return row.basis[2]; });
   return result;
 }
 
 Spectrum d65_at_wavelengths(const Wavelengths& wavelengths) {
-  Spectrum result;
-  const double scale = luminance_of_one() / luminance_of_d65();
-  for (int i = 0; i < Spectrum::lane_count; ++i)
-    result.set(i, float(d65_at(double(wavelengths[i])) * scale));
-  return result;
+  return Rows(wavelengths).at_lanes([](const Row& row) { return row.d65; });
 }
 
 }  // namespace kaustik

@@ -17,8 +17,9 @@ class Wavelengths {
   Wavelengths() : nm_{0, 0, 0, 0} {}
   /// Four wavelengths, nm, above zero.
   Wavelengths(float a, float b, float c, float d) : nm_{a, b, c, d} {}
-  /// Four that are a quarter of the visible range apart. Where `u` is uniform in [0, 1), each lane
-  /// is uniform over the range.
+  /// Four whose quantiles are a quarter apart, from `u` in [0, 1) on. Where `u` is uniform each
+  /// lane has the same density over the visible range, which is highest at 538 nm and small at the
+  /// ends.
   static Wavelengths spaced(float u);
 
   bool is_rgb() const { return nm_[0] == 0; }
@@ -48,9 +49,9 @@ inline Spectrum rgb_from_lanes(const Spectrum& lanes, const Wavelengths& wavelen
   return wavelengths.is_rgb() ? lanes : rgb_from_wavelengths(lanes, wavelengths);
 }
 
-/// A reflectance (or another factor) of the linear Rec. 709 colour `rgb`. Of wavelengths: constant
-/// in each of three bands, such that the colour under D65 is exactly `rgb`. No value is below the
-/// least or above the largest of the colour's channels.
+/// A reflectance (or another factor) of the linear Rec. 709 colour `rgb`. Of wavelengths: a mean of
+/// its channels with weights that change smoothly (reflectance_basis.h), such that the colour under
+/// D65 is exactly `rgb`. No value is below the least or above the largest of the channels.
 Spectrum reflectance_at_wavelengths(const Spectrum& rgb, const Wavelengths& wavelengths);
 inline Spectrum lanes_from_reflectance(const Spectrum& rgb, const Wavelengths& wavelengths) {
   return wavelengths.is_rgb() ? rgb : reflectance_at_wavelengths(rgb, wavelengths);

@@ -91,16 +91,18 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
   CameraSplats camera(scene_, job.wanted, job.count, splats);
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
     const uint64_t element = uint64_t(job.light) * 2 + (job.aimed ? 1 : 0);
+    // Sets follow one another from one by chance on: of few paths each is as likely to have any.
+    const auto first_set = uint32_t(hash_mix(hash_mix(pass.seed, pass.index), element) >> 32);
+    const Wavelengths& wavelengths = pass.wavelengths[pass.wavelengths.of_sample(first_set, i)];
     Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, element, i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted =
-        emission.sample(job.light, u_position, u_direction, sampler.next_1d(), pass.wavelengths);
+        emission.sample(job.light, u_position, u_direction, sampler.next_1d(), wavelengths);
     if (emitted.on_surface)
-      camera.show_lamp(job.light, emitted.origin, emitted.pdf_position,
-                       {pass.wavelengths, sampler});
+      camera.show_lamp(job.light, emitted.origin, emitted.pdf_position, {wavelengths, sampler});
     if (emitted.flux.is_zero() || maximum_events_ < 1) return std::nullopt;
     return LightPath(emitted.ray, emitted.flux, scene_.light_medium(job.light), Lobes::specular,
-                     sampler, pass.wavelengths);
+                     sampler, wavelengths);
   };
   const auto in_full = [](const auto&...) { return 1.0f; };
   const auto see = [&](const LightVertex& at) {

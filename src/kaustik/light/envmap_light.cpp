@@ -2,9 +2,9 @@
 #include "kaustik/image/photometry.h"
 #include "kaustik/image/picture_reader.h"
 #include "kaustik/light/environment_light.h"
-#include "kaustik/light/equal_area.h"
 #include "kaustik/light/irradiance_harmonics.h"
 #include "kaustik/light/latlong_distribution.h"
+#include "kaustik/light/picture_around.h"
 
 namespace kaustik {
 namespace {
@@ -153,21 +153,6 @@ class EnvmapLight final : public EnvironmentLight {
 /// A texel of four floats and the numbers of its distribution.
 constexpr int64_t bytes_per_pixel = 32;
 
-/// The picture in latitude and longitude.
-Image picture_around(const LightInputs& inputs, PictureReader& pictures) {
-  const Arguments& arguments = inputs.arguments;
-  const bool is_latlong = arguments.text("projection") == "latlong";
-  // Of a square one twice as many pixels are made.
-  Image image = pictures.read(arguments, is_latlong ? bytes_per_pixel : 2 * bytes_per_pixel,
-                              {.gamma = gamma_of(arguments)});
-  if (is_latlong) return image;
-  if (image.width() != image.height())
-    throw Error(ErrorKind::input,
-                picture_name(arguments) + " is no square, as pictures of equal areas are",
-                "give a square one, or 'projection' latlong", picture_place(arguments));
-  return latlong_of_equal_area(image);
-}
-
 std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
   const Transform& to_world = emitter_transform(inputs);
@@ -178,7 +163,8 @@ std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
   PictureReader& pictures = inputs.pictures ? *inputs.pictures : own_reader;
   const auto scale = float(arguments.number("scale"));
   const auto tables = shared_tables<EnvmapTables>(inputs, [&] {
-    return std::make_shared<EnvmapTables>(picture_around(inputs, pictures), scale);
+    return std::make_shared<EnvmapTables>(
+        picture_around(arguments, pictures, bytes_per_pixel, gamma_of(arguments)), scale);
   });
   auto light =
       std::make_unique<EnvmapLight>(tables, scale, to_world, EmissionDisk(inputs.scene_bounds));
@@ -200,10 +186,8 @@ LightType envmap_light_type() {
            gamma_parameter(),
            to_world_parameter(
                "Transform from the picture's space to the world. The upper edge is +y."),
-           choice_parameter("projection", "latlong", {"latlong", "equalarea"},
-                            "How directions lie in the picture: by longitude and latitude, or in "
-                            "a square of equal areas (pbrt), whose middle is +y."),
-           visible_parameter(), ignored_parameter("mis_compensation", ParameterKind::boolean),
+           projection_parameter(), visible_parameter(),
+           ignored_parameter("mis_compensation", ParameterKind::boolean),
            ignored_parameter("cache", ParameterKind::boolean), ignored_sampling_weight()})};
   return {info, false, create_envmap};
 }

@@ -14,6 +14,7 @@ LightType directional_area_light_type();
 LightType point_light_type();
 LightType spot_light_type();
 LightType projector_light_type();
+LightType goniometric_light_type();
 LightType directional_light_type();
 LightType constant_light_type();
 LightType envmap_light_type();

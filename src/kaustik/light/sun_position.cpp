@@ -1,6 +1,9 @@
 #include "kaustik/light/sun_position.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 
 namespace kaustik {
 namespace {
@@ -13,6 +16,13 @@ std::chrono::year_month_day date_of(int year, int month, int day) {
 }
 
 }  // namespace
+
+Horizontal horizontal(const Vec3d& direction) {
+  constexpr double degree = std::numbers::pi / 180;
+  const double azimuth = std::atan2(-direction.y, -direction.x) / degree;
+  return {std::asin(std::clamp(direction.z, -1.0, 1.0)) / degree,
+          azimuth < 0 ? azimuth + 360 : azimuth};
+}
 
 bool is_date(int year, int month, int day) { return date_of(year, month, day).ok(); }
 

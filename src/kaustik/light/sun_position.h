@@ -18,6 +18,14 @@ struct PlaceAndTime {
 /// Vector", Solar Energy 70, 2001).
 Vec3d sun_direction_at(const PlaceAndTime& at);
 
+/// A direction as it is told on the ground, in degrees.
+struct Horizontal {
+  double altitude = 0;  ///< above the horizon
+  double azimuth = 0;   ///< 0 … 360: 0 is north, 90 east, 180 south
+};
+/// Of a unit vector on the axes of sun_direction_at().
+Horizontal horizontal(const Vec3d& direction);
+
 /// Whether there is such a day.
 bool is_date(int year, int month, int day);
 

@@ -1,5 +1,7 @@
 // The emitters `sunsky`, `sky` and `sun`: one light with both parts or with one of them.
 
+#include "kaustik/light/sunsky_light.h"
+
 #include <fmt/format.h>
 
 #include <optional>
@@ -154,6 +156,7 @@ class SunSkyLight final : public EnvironmentLight {
     const float from_sky = sky_scale_ > 0 ? harmonics_.irradiance(local.normal) : 0.0f;
     return from_sky + sun_.irradiance().sum() * receiver_cosine(local, sun_.direction());
   }
+  SunPlace sun_place() const { return {Vec3d(sun_.direction()), to_world(sun_.direction())}; }
 
  private:
   /// Sky on the ground, lx: what light of sun and sky the ground sends up, the air sends back in
@@ -352,6 +355,11 @@ std::vector<Parameter> parameters(Parts parts) {
 }
 
 }  // namespace
+
+std::optional<SunPlace> sun_place(const Light& light) {
+  const auto* day = dynamic_cast<const SunSkyLight*>(&light);
+  return day ? std::optional(day->sun_place()) : std::nullopt;
+}
 
 LightType sunsky_light_type() {
   static const TypeInfo info{"emitter", "sunsky", "Sun and sky of a cloudless day.",

@@ -171,6 +171,7 @@ Value parse_spectrum(std::string_view text) {
   if (curve.samples.size() < 2)
     throw BadValue("a curve of one wavelength is zero everywhere else",
                    "give the ends of a range, such as \"360:0.5, 830:0.5\"");
+  expect_nanometres(curve);
   return curve;
 }
 
@@ -183,6 +184,13 @@ double parse_kelvin(std::string_view text) {
   std::string_view number = trimmed(text);
   if (!number.empty() && (number.back() == 'K' || number.back() == 'k')) number.remove_suffix(1);
   return parse_float(number);
+}
+
+void expect_nanometres(const SpectralCurve& curve) {
+  constexpr double least_nm = 10;
+  if (const double last = curve.samples.back().first; last < least_nm)
+    throw BadValue(fmt::format("its wavelengths end at {} nm, where nothing is seen", last),
+                   "give nanometres: a micrometre has 1000");
 }
 
 void append_sample(SpectralCurve& curve, double wavelength_nm, double value) {

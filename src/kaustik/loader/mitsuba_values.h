@@ -50,5 +50,7 @@ double parse_kelvin(std::string_view text);
 
 /// Appends a sample to a curve; throws BadValue unless the wavelength is positive and ascends.
 void append_sample(SpectralCurve& curve, double wavelength_nm, double value);
+/// Throws BadValue where a whole curve, of one sample at least, must be meant in micrometres.
+void expect_nanometres(const SpectralCurve& curve);
 
 }  // namespace kaustik::mitsuba

@@ -51,6 +51,11 @@ SpectralCurve read_spectrum_file(const std::string& path) {
                                : "the spectrum has one wavelength: it is zero everywhere else",
          "write a wavelength in nanometres and a value on each line, at least two",
          Place{name, 0, 0});
+  try {
+    mitsuba::expect_nanometres(curve);
+  } catch (const mitsuba::BadValue& bad) {
+    fail(bad.what(), bad.remedy, Place{name, 0, 0});
+  }
   return curve;
 }
 

@@ -11,11 +11,26 @@ Parameter ior_parameter(const std::string& name, std::string_view usual, const s
       .range(0.01, 100);
 }
 
+/// Without the Abbe number.
+SpectralValue index_of(const Arguments& arguments, std::string_view name) {
+  const auto value = arguments.number_or_name(name);
+  if (const auto* material = std::get_if<std::string>(&value)) return named_ior(*material);
+  return SpectralValue(float(std::get<double>(value)));
+}
+
 }  // namespace
 
 std::vector<Parameter> dielectric_ior_parameters(std::string_view usual_interior) {
   return {ior_parameter("int_ior", usual_interior, "inside"),
           ior_parameter("ext_ior", "air", "outside")};
+}
+
+Parameter abbe_number_parameter() {
+  return optional(number_parameter("abbe_number", 58,
+                                   "Dispersion inside in spectral mode: (n_d - 1)/(n_F - n_C), "
+                                   "from about 20 (much) to 95 (little). If absent, measured "
+                                   "materials have their own, and numbers have none.")
+                      .range(1, 1000));
 }
 
 Parameter priority_parameter() {
@@ -27,14 +42,15 @@ Parameter priority_parameter() {
 }
 
 SpectralValue dielectric_ior_of(const Arguments& arguments, std::string_view name) {
-  const auto value = arguments.number_or_name(name);
-  if (const auto* material = std::get_if<std::string>(&value))
-    return SpectralValue(dielectric_ior(*material));
-  return SpectralValue(float(std::get<double>(value)));
+  const SpectralValue index = index_of(arguments, name);
+  const bool may_disperse = name == "int_ior" && arguments.info().find("abbe_number");
+  if (!may_disperse || !arguments.has("abbe_number")) return index;
+  return ior_by_abbe_number(index.rgb()[0], float(arguments.number("abbe_number")));
 }
 
 std::vector<Parameter> dielectric_parameters() {
   std::vector<Parameter> parameters = dielectric_ior_parameters();
+  parameters.push_back(abbe_number_parameter());
   parameters.push_back(specular_reflectance_parameter());
   parameters.push_back(specular_transmittance_parameter());
   return parameters;

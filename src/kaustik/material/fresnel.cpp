@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "kaustik/base/vec.h"
 
@@ -49,42 +48,6 @@ Spectrum fresnel_conductor(float cos_incident, const ComplexIor& ior) {
   const Spectrum p_sum = cos_sq * norm + Spectrum(sin_sq * sin_sq), p_term = s_term * sin_sq;
   const Spectrum p = s * (p_sum - p_term) / (p_sum + p_term);
   return 0.5f * (s + p);
-}
-
-namespace {
-
-struct NamedIor {
-  const char* name;
-  float value;
-};
-// Mitsuba's table (after Hecht, Optics, 4th edition), so that scenes mean the same here.
-constexpr NamedIor named_iors[] = {
-    {"vacuum", 1.0f},      {"helium", 1.000036f},        {"hydrogen", 1.000132f},
-    {"air", 1.000277f},    {"carbon dioxide", 1.00045f}, {"water", 1.3330f},
-    {"acetone", 1.36f},    {"ethanol", 1.361f},          {"carbon tetrachloride", 1.461f},
-    {"glycerol", 1.4729f}, {"benzene", 1.501f},          {"silicone oil", 1.52045f},
-    {"bromine", 1.661f},   {"water ice", 1.31f},         {"fused quartz", 1.458f},
-    {"pyrex", 1.470f},     {"acrylic glass", 1.49f},     {"polypropylene", 1.49f},
-    {"bk7", 1.5046f},      {"sodium chloride", 1.544f},  {"amber", 1.55f},
-    {"pet", 1.5750f},      {"diamond", 2.419f}};
-
-}  // namespace
-
-SpectralValue dispersive_ior(const SpectralFunctionPointer& function) {
-  constexpr double sodium_d_nm = 589.3;
-  return {Spectrum(float(function->at(sodium_d_nm))), function};
-}
-
-float dielectric_ior(std::string_view name) {
-  for (const NamedIor& ior : named_iors)
-    if (name == ior.name) return ior.value;
-  throw std::out_of_range("unknown dielectric");
-}
-
-std::vector<std::string> dielectric_names() {
-  std::vector<std::string> names;
-  for (const NamedIor& ior : named_iors) names.emplace_back(ior.name);
-  return names;
 }
 
 }  // namespace kaustik

@@ -50,8 +50,14 @@ std::vector<std::string> conductor_names();
 /// A dielectric's index of refraction over the wavelength. In RGB mode all lanes have that at 589
 /// nm, the sodium D line, by which glasses are listed.
 SpectralValue dispersive_ior(const SpectralFunctionPointer& function);
-/// Index of refraction at 589 nm by Mitsuba's names ("bk7", "water", …). Throws std::out_of_range
-/// for an unknown one.
+/// Of the index `n_d` at the helium d line (587.6 nm), the same in RGB mode, and of the Abbe number
+/// (n_d − 1)/(n_F − n_C), above 0: by Cauchy's two terms, n = a + b/λ².
+SpectralValue ior_by_abbe_number(float n_d, float abbe);
+/// Index of refraction of a material by its name: measured ones over the wavelength
+/// (data/sellmeier.csv), others the same everywhere. In RGB mode that at 589 nm, and where Mitsuba
+/// has the name its value ("bk7", "water", …). Throws std::out_of_range for an unknown one.
+SpectralValue named_ior(std::string_view name);
+/// The same in RGB mode.
 float dielectric_ior(std::string_view name);
 std::vector<std::string> dielectric_names();
 

@@ -53,6 +53,7 @@ class RoughDielectric final : public Bsdf {
 TypeInfo make_roughdielectric_info() {
   TypeInfo info{"bsdf", "roughdielectric", "Rough transparent surface such as ground glass.",
                 dielectric_ior_parameters()};
+  info.parameters.push_back(abbe_number_parameter());
   for (Parameter& parameter : rough_facets_parameters())
     info.parameters.push_back(std::move(parameter));
   info.parameters.push_back(specular_reflectance_parameter());

@@ -46,7 +46,7 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
                          const IrradianceMap& precomputed, const ShadowMap* shadows,
                          const ShadowSettings& shadow_settings, const Pass& pass)
     : scene_(scene),
-      wavelengths_(pass.wavelengths),
+      wavelengths_(pass.wavelengths[0]),
       settings_(settings),
       maps_(maps),
       radii_(radii),

@@ -80,6 +80,8 @@ struct PhotonMapIntegrator::State final : PassState {
 PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
     : IlluminationModel(scene), settings_(arguments) {
   traits_.components = settings_.components;
+  // One set of maps, which all samples of a pass share.
+  traits_.most_wavelength_sets = 1;
   traits_.default_samples_per_pass = settings_.samples_per_pass;
   if ((scene.has_media() || scene.passes_straight()) && settings_.shadow_photons > 0)
     throw Error(ErrorKind::input,
@@ -183,7 +185,7 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
     const Pass& pass, PassReport& report, std::stop_token stop,
     const ProgressFunction& progress) const {
   if (stored_maps_) {
-    check_stored_wavelengths(pass.wavelengths);
+    check_stored_wavelengths(pass.wavelengths[0]);
     return stored_maps_;
   }
   const auto lights = light_pass(pass.seed, stop);
@@ -191,7 +193,7 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
   GaugeDisks gauges;
   if (!scene().gauges().empty()) gauges = gauge_disks(pass, report.rays);
   auto maps = std::make_shared<const PhotonMaps>(
-      lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths,
+      lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths[0],
                     gauges.empty() ? nullptr : &gauges, pass.stage()));
   report.photons = maps->global.size() + maps->caustic.size() + maps->volume.size();
   report.rays += maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
@@ -220,7 +222,7 @@ std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
   if (is_kept) {
     const std::lock_guard lock(light_mutex_);
     if (first_light_ && first_light_->seed == pass.seed &&
-        first_light_->wavelengths == pass.wavelengths) {
+        first_light_->wavelengths == pass.wavelengths[0]) {
       report.photons = first_light_->report.photons;
       report.warnings = first_light_->report.warnings;
       return first_light_;
@@ -228,7 +230,7 @@ std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
   }
   const auto light = std::make_shared<Light>();
   light->seed = pass.seed;
-  light->wavelengths = pass.wavelengths;
+  light->wavelengths = pass.wavelengths[0];
   light->maps = maps_of(pass, light->report, stop, progress);
   // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
   // no number of passes removes.

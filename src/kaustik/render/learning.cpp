@@ -4,6 +4,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/sampler.h"
+#include "kaustik/render/pass_wavelengths.h"
 
 namespace kaustik {
 namespace {
@@ -24,7 +25,10 @@ Learned learn(const PreparedScene& prepared, const LearningSettings& settings, s
   stored.seed = settings.seed;
   stored.samples_per_pass =
       settings.samples_per_pass.value_or(integrator.traits().default_samples_per_pass);
-  const Pass after{teaching_seed(settings.seed), settings.passes, stored.samples_per_pass, {}};
+  const uint64_t seed = teaching_seed(settings.seed);
+  const Pass after{seed, settings.passes, stored.samples_per_pass,
+                   wavelengths_of_pass(prepared.scene->film(), integrator.traits(), seed,
+                                       settings.passes, stored.samples_per_pass)};
   with_threads(settings.threads, [&] { learned.report = integrator.learn(after, stop, progress); });
   stored.lessons = integrator.lessons();
   learned.cancelled = stop.stop_requested() && stored.lessons.passes < settings.passes;

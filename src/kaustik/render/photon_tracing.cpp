@@ -63,6 +63,10 @@ void explain_empty_maps(const StoredPhotons& photons, std::vector<std::string>& 
 TracedPhotons trace_photon_maps(const Description& description, const Scene& scene, uint64_t seed,
                                 int threads, std::stop_token stop, const ProgressFunction& progress,
                                 PhotonPart part) {
+  if (scene.film().is_spectral)
+    throw Error(ErrorKind::input,
+                "files of photons hold red, green and blue, and the film asks for wavelengths",
+                "set the film's 'color' to rgb", scene.film().place);
   TracedPhotons traced;
   StoredPhotons& photons = traced.photons;
   photons.fingerprint = fingerprint_of(scene);

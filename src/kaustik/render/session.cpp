@@ -9,6 +9,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
+#include "kaustik/render/pass_wavelengths.h"
 #include "kaustik/render/session_monitor.h"
 #include "kaustik/render/session_team.h"
 #include "kaustik/scene/scene_report.h"
@@ -159,7 +160,7 @@ SessionEnd Session::run_alone(const std::stop_token& stop, Monitor& monitor,
       end = cut_short();
     if (end && close_regions(*end)) return *end;
     if (end) continue;
-    const Pass pass{settings_.seed, next, samples_per_pass_, {}};
+    const Pass pass = pass_of(next);
     if (stop.stop_requested() || render_pass({pass, {}}, stop, monitor) != PassEnd::complete)
       return cut_short();
     monitor.pass_done();
@@ -214,6 +215,12 @@ SessionReport Session::run(std::stop_token stop,
     report_.warnings.push_back(refused_rays_warning(refused));
   monitor.tell(Progress::Stage::done, true);
   return report_;
+}
+
+Pass Session::pass_of(uint32_t index) const {
+  return {settings_.seed, index, samples_per_pass_,
+          wavelengths_of_pass(scene_.film(), integrator_.traits(), settings_.seed, index,
+                              samples_per_pass_)};
 }
 
 std::string integrator_type(const Description& description, const Scene& scene) {

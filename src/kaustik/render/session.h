@@ -217,6 +217,8 @@ class Session {
       return !region || region->meets({first.x, first.y, PictureTiles::side, PictureTiles::side});
     }
   };
+  /// Number `index` of the picture, or of a region, whose order the caller adds.
+  Pass pass_of(uint32_t index) const;
   enum class PassEnd { complete, incomplete, discarded };
   void plan();
   void plan_picture();
@@ -271,7 +273,8 @@ class Session {
   void finish_tiles(const Task& task);
   /// Gives the pass's memory back, so that what looks at the film may use it.
   void forget_pass(Monitor& monitor);
-  void clear_pixels(Monitor& monitor);
+  /// Before a pass.
+  void clear_pixels(const Pass& next, Monitor& monitor);
   /// Now, and `extra` bytes beside.
   void note_memory(size_t extra = 0);
   /// Share of the pass's samples that its pixels have.
@@ -284,6 +287,7 @@ class Session {
   SessionSettings settings_;
   Film film_;
   SplatBuffer splats_;
+  Spectrum splat_balance_{1};         ///< WavelengthSets::balance() of the pass
   PassTiles pass_;                    ///< that is being rendered: sums, in finished tiles means
   std::vector<uint8_t> is_finished_;  ///< by tile
   uint32_t pass_count_ = 0;           ///< 0: limited by time or error

@@ -56,7 +56,7 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
   if (stop.stop_requested()) return PassEnd::discarded;
   monitor.start_pass(task.region);
   const Pass& pass = task.pass;
-  clear_pixels(monitor);
+  clear_pixels(pass, monitor);
   monitor.tell(Progress::Stage::light, false);
   std::stop_source halt;
   const std::stop_callback forward(stop, [&] { halt.request_stop(); });
@@ -126,8 +126,9 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
   return complete ? PassEnd::complete : PassEnd::incomplete;
 }
 
-void Session::clear_pixels(Monitor& monitor) {
+void Session::clear_pixels(const Pass& next, Monitor& monitor) {
   const std::lock_guard lock(picture_mutex_);
+  splat_balance_ = next.wavelengths.balance();
   has_picture_ = film_.pass_count() > 0;
   forget_pass(monitor);
 }
@@ -281,6 +282,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, S
   if (samples.count > end && !camera.more) camera.more = true;
   end = std::min(end, samples.count);
   if (x % samples_per_look == 0) camera.look_at_clock();
+  const auto first_set = uint32_t(hash_mix(hash_mix(pass.seed, pass.index), address) >> 32);
   uint64_t rays = 0;
   uint32_t done = sum.samples;
   while (done < end && !camera.halts()) {
@@ -292,7 +294,8 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, S
       Sampler sampler =
           Sampler::at(pass.seed, sequence, Stream::camera, address, samples.first_index + done);
       const Vec2f offset = film.filter.sample(sampler.next_2d());
-      SampleSink sink(integrator_.traits().components, pass.wavelengths, &scratch);
+      const size_t set = pass.wavelengths.of_sample(first_set, done);
+      SampleSink sink(integrator_.traits().components, pass.wavelengths, &scratch, set);
       integrator_.sample(camera.state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y},
                          sampler, sink);
       rays += sink.rays();
@@ -312,7 +315,7 @@ PassPixel Session::finished(const PassPixel& pixel, int x, int y) const {
   if (pixel.samples > 0) add_scaled(pixel, 1.0f / float(pixel.samples), mean);
   for (int c = 0; c < component_count; ++c)
     if (integrator_.traits().splats && splats_.wants(Component(c)))
-      mean.radiance[size_t(c)] += splats_.value(x, y, Component(c));
+      mean.radiance[size_t(c)] += splats_.value(x, y, Component(c)) * splat_balance_;
   return mean;
 }
 

@@ -84,10 +84,10 @@ Session::PassEnd Session::render_regions(std::stop_token stop, Monitor& monitor,
     if (!region) break;
     if (stop.stop_requested()) return PassEnd::discarded;
     if (settings_.seconds && monitor.elapsed() > *settings_.seconds) return PassEnd::discarded;
-    Pass pass =
+    const Pass next =
         film_.next_regional_pass(*region, film_.passes().first_missing(settings_.first_pass));
-    pass.seed = settings_.seed;
-    pass.samples_per_pixel = samples_per_pass_;
+    Pass pass = pass_of(next.index);
+    pass.order = next.order;
     if (render_pass({pass, region}, stop, monitor) != PassEnd::complete) return PassEnd::discarded;
     count_down(*region);
     monitor.regional_pass_done(*region, !next_region());

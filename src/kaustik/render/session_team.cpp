@@ -63,7 +63,7 @@ TeamReport Session::TeamRun::rendered(const TeamOrder& order) {
   const uint64_t rays = monitor_.rays, photons = monitor_.photons, dropped = monitor_.dropped;
   for (const uint32_t index : order.of_member(team_.rank())) {
     const double begin = monitor_.now();
-    const Pass pass{session_.settings_.seed, index, session_.samples_per_pass_, {}};
+    const Pass pass = session_.pass_of(index);
     if (stop_.stop_requested() ||
         session_.render_pass({pass, {}}, stop_, monitor_) != PassEnd::complete)
       break;
@@ -99,9 +99,7 @@ void Session::TeamRun::take_reports(const std::vector<std::vector<uint8_t>>& rep
   std::ranges::sort(done, {}, &TeamReport::DonePass::pass);
   for (const TeamReport::DonePass& of_pass : done) {
     rendered_.add({of_pass.pass, of_pass.pass + 1});
-    if (lessons_)
-      lessons_->add_taught({session_.settings_.seed, of_pass.pass, session_.samples_per_pass_, {}},
-                           of_pass.taught);
+    if (lessons_) lessons_->add_taught(session_.pass_of(of_pass.pass), of_pass.taught);
   }
   if (elsewhere_ == 0 && !done.empty()) film_is_whole();
 }
@@ -181,8 +179,8 @@ TeamOrder Session::TeamRun::next_round(uint32_t first) {
   if (lessons_ && first >= lessons_end_) {
     PassReport report;
     order.lessons = lessons_->lessons_for(
-        {session_.settings_.seed, first, session_.samples_per_pass_, {}}, stop_,
-        [&](double share) { monitor_.light_pass_at(share); }, report);
+        session_.pass_of(first), stop_, [&](double share) { monitor_.light_pass_at(share); },
+        report);
     monitor_.rays += report.rays;
     monitor_.photons += report.photons;
     lessons_end_ = lessons_->epoch_end(first).value_or(never);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "kaustik/material/dielectric_arguments.h"
@@ -67,16 +68,22 @@ const Object* bsdf_of_shape(const Object& shape) {
   return nullptr;
 }
 
-/// The index inside a body as a number, whether it was given as one, by a name, or not at all. What
-/// is neither number nor known name was told when the bsdf was made, and stays as it is.
+/// The index inside a body, whether it was given as a number, by a name, or not at all.
 Value interior_of(const Object& shape) {
   const Property* given = find_property(*bsdf_with_priority(shape), "int_ior");
   const Value value = given ? given->value : Value(std::string("bk7"));
   if (const auto* integer = std::get_if<int64_t>(&value)) return double(*integer);
-  const auto* name = std::get_if<std::string>(&value);
+  return value;
+}
+
+/// The same as a number, that of RGB mode. What is neither number nor known name was told when the
+/// bsdf was made.
+std::optional<float> number_of_index(const Value& index) {
+  if (const auto* number = std::get_if<double>(&index)) return float(*number);
+  const auto* name = std::get_if<std::string>(&index);
   const std::vector<std::string> known = dielectric_names();
-  if (!name || std::find(known.begin(), known.end(), *name) == known.end()) return value;
-  return double(dielectric_ior(*name));
+  if (!name || std::find(known.begin(), known.end(), *name) == known.end()) return std::nullopt;
+  return dielectric_ior(*name);
 }
 
 }  // namespace
@@ -122,10 +129,11 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_within(const BuiltShape& shape,
                                                       const Object& around) {
   static const Object nothing{"bsdf", "null", "", {}, {}, {}};
   const Value exterior = interior_of(around);
-  // Between two bodies of the same index, as single floats tell, there is nothing to see.
-  const Value interior = interior_of(*shape.object);
-  const auto *outside = std::get_if<double>(&exterior), *inside = std::get_if<double>(&interior);
-  if (outside && inside && float(*outside) == float(*inside)) return create_bsdf(nothing, nullptr);
+  // Between two bodies of the same index, as single floats tell, there is nothing to see; not even
+  // where one of them disperses.
+  const auto outside = number_of_index(exterior),
+             inside = number_of_index(interior_of(*shape.object));
+  if (outside && inside && *outside == *inside) return create_bsdf(nothing, nullptr);
   Copies copies;
   bordering_.push_back(bordering_on(*bsdf_of_shape(*shape.object), exterior, copies));
   return create_bsdf(*bordering_.back(), &shape);

@@ -24,7 +24,8 @@ struct FilmSettings {
   Place place = {};      ///< in the scene file
   Quantity quantity = Quantity::radiance;
   float exposure = 0;  ///< doublings of the light where it is shown; no change of the light itself
-  bool layers = true;  ///< images hold components, what is seen, errors and noise
+  bool is_spectral = false;  ///< light is followed at wavelengths, and not as red, green and blue
+  bool layers = true;        ///< images hold components, what is seen, errors and noise
 };
 
 struct FilmType {

@@ -38,6 +38,10 @@ Rows film_rows() {
       choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
                        "Radiance in W/(sr m²), or irradiance in W/m² on the visible side of the "
                        "first surface behind each pixel, whatever its material."),
+      choice_parameter("color", "rgb", {"rgb", "spectral"},
+                       "What light is made of: red, green and blue, or wavelengths from 360 to "
+                       "830 nm. With wavelengths glass disperses, and measured spectra count as "
+                       "they are. The picture is red, green and blue in both cases."),
       choice_parameter("layers", "all", {"all", "none"},
                        "Layers of EXR images beside the picture and the emission of lamps: "
                        "components, albedo, normal, depth, error and noise of each pixel, or none, "
@@ -84,6 +88,7 @@ FilmSettings create_hdr_film(const Arguments& arguments) {
   FilmSettings film;
   film.place = arguments.place();
   if (arguments.text("quantity") == "irradiance") film.quantity = Quantity::irradiance;
+  film.is_spectral = arguments.text("color") == "spectral";
   film.layers = arguments.text("layers") == "all";
   film.exposure = float(arguments.number("exposure") + std::log2(arguments.number("iso") / 100));
   film.size = {int(arguments.integer("width")), int(arguments.integer("height"))};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "kaustik/light/measured_light.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
 #include "kaustik/scene/texture_emission.h"
@@ -97,6 +98,9 @@ void SceneBuilder::make_lights() {
     if (!arguments.is_complete()) continue;
     collecting(pending.object->place, [&] {
       make_light(*type, pending, arguments);
+      if (const auto* measured = dynamic_cast<const MeasuredLight*>(lights_.back().get()))
+        for (const std::string& remark : measured->remarks())
+          if (remarks_reported_.insert(remark).second) warnings_.push_back(remark);
       // Not all that are pending are made, and no ray meets a beam.
       if (lights_.back()->traits().shape >= 0)
         shapes_[size_t(pending.shape_index)].surface.light = int(lights_.size()) - 1;

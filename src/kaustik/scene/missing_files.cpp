@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "kaustik/base/photometric_units.h"
 #include "kaustik/scene/scene_builder.h"
 
 namespace kaustik {
@@ -28,6 +29,16 @@ double scale_of(const Object& emitter) {
     if (const auto* integer = std::get_if<int64_t>(&property.value)) return double(*integer);
   }
   return 1;
+}
+
+/// Of a luminaire: as bright as many are, at its place.
+std::shared_ptr<Object> point_instead_of(const Object& luminaire) {
+  constexpr double candelas = 1000;
+  auto point = instead_of(luminaire, "point",
+                          {{"intensity", candelas / lumens_per_watt_white * scale_of(luminaire)}});
+  for (const Property& property : luminaire.properties)
+    if (property.name == "to_world") point->properties.push_back(property);
+  return point;
 }
 
 }  // namespace
@@ -58,7 +69,9 @@ std::shared_ptr<Object> SceneBuilder::stand_in_for_file(const Object& object,
                       {{"color0", Rgb{0.8, 0, 0.8}},
                        {"color1", Rgb{0.1, 0.1, 0.1}},
                        {"to_uv", Transform::scale({8, 8, 1})}});
-  if (object.family == "emitter" && lacks_file(object, info, "even light stands for it"))
+  if (object.type == "goniometric" && lacks_file(object, info, "a point of 1000 cd stands for it"))
+    made = point_instead_of(object);
+  else if (object.family == "emitter" && lacks_file(object, info, "even light stands for it"))
     made = instead_of(object, "constant", {{"radiance", scale_of(object)}});
   if (object.family == "volume" && lacks_file(object, info, "it is 0 everywhere"))
     made = instead_of(object, "constvolume", {{"value", 0.0}});

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "kaustik/light/measured_light.h"
+#include "kaustik/light/sun_position.h"
+#include "kaustik/light/sunsky_light.h"
 #include "kaustik/scene/look_through.h"
 
 namespace kaustik {
@@ -111,18 +114,40 @@ void describe_view(const Scene& scene, SceneReport& report) {
         view.nearest, name));
 }
 
+std::string place_of(const Light& light, const Scene& scene) {
+  if (const int surface = light.traits().surface(); surface >= 0) {
+    const std::string& name = scene.surface(uint32_t(surface)).name;
+    // One without a name of its own is called after its type and its line.
+    return name.find('\'') == name.npos ? fmt::format("surface '{}'", name) : name;
+  }
+  if (light.is_infinite()) return "at infinity";
+  const Bounds3f& bounds = light.traits().bounds.position;
+  const Vec3f p = bounds.center();
+  return fmt::format("{} {:.4g}, {:.4g}, {:.4g}", bounds.min == bounds.max ? "at" : "around", p.x,
+                     p.y, p.z);
+}
+
+/// Where the sun stands, for who gave place and time.
+std::string sun_line(const SunPlace& sun) {
+  const Horizontal at = horizontal(sun.by_compass);
+  const auto rounded = [](float x) { return std::round(double(x) * 1000) / 1000 + 0.0; };
+  return fmt::format("sun        {:.1f}° high, {:.1f}° from north by east; toward {}, {}, {}",
+                     at.altitude, at.azimuth, rounded(sun.in_world.x), rounded(sun.in_world.y),
+                     rounded(sun.in_world.z));
+}
+
 void describe_lights(const Scene& scene, SceneReport& report) {
   int index = 0;
   for (const auto& light : scene.lights()) {
     const float power = light->traits().power.sum();
-    const std::string where =
-        light->traits().surface() >= 0
-            ? fmt::format("surface '{}'", scene.surface(uint32_t(light->traits().surface())).name)
-        : light->is_infinite() ? std::string("at infinity")
-                               : std::string("without a surface");
+    const std::string where = place_of(*light, scene);
     const Spectrum rgb = light->traits().power;
     report.lines.push_back(fmt::format("light {:<4} {}, {:.4g} {:.4g} {:.4g} W", index, where,
                                        rgb[0], rgb[1], rgb[2]));
+    if (const auto sun = sun_place(*light)) report.lines.push_back(sun_line(*sun));
+    if (const auto* measured = dynamic_cast<const MeasuredLight*>(light.get());
+        measured && !measured->report().empty())
+      report.lines.push_back(fmt::format("           {}", measured->report()));
     if (!(power > 0))
       report.warnings.push_back(fmt::format("light {} ({}) has no power", index, where));
     ++index;

@@ -9,6 +9,7 @@
 #include "kaustik/base/progress.h"
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/scratch.h"
+#include "kaustik/base/wavelength_sets.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/component.h"
 #include "kaustik/transport/kept_light.h"
@@ -36,10 +37,12 @@ struct Pass {
   uint64_t seed = 0;
   uint32_t index = 0;              ///< from 0
   uint32_t samples_per_pixel = 1;  ///< of this pass and every other
-  /// Of all light of the pass: whatever meets in it has the same.
-  Wavelengths wavelengths = {};
+  /// Of all light of the pass: whatever meets in it is of the same set.
+  WavelengthSets wavelengths = {};
   RegionOrder order = {};  ///< of a regional pass alone
 
+  /// Of a pixel, on average, with each set of wavelengths.
+  float samples_per_set() const { return float(samples_per_pixel) / float(wavelengths.count()); }
   bool is_regional() const { return index >= first_regional_pass; }
   /// The pass whose plans and radii this one has: itself, or that of its order. Random numbers of
   /// light paths go by the index, those of camera samples by sequence() and round().
@@ -80,11 +83,16 @@ struct FirstHit {
 /// Where one camera sample's results go.
 class SampleSink {
  public:
-  /// `wavelengths`: of the light that is asked for. `scratch`, which must outlive this: for all
-  /// that finds it. Who takes many samples has one for all of them; null: one of this sample.
-  explicit SampleSink(ComponentSet wanted, const Wavelengths& wavelengths = {},
-                      Scratch* scratch = nullptr)
-      : wanted_(wanted), wavelengths_(wavelengths), scratch_(scratch) {}
+  /// For light of set number `set` of a pass's `wavelengths`. `scratch`, which must outlive this:
+  /// for all that finds it. Who takes many samples has one for all of them; null: one of this
+  /// sample.
+  explicit SampleSink(ComponentSet wanted, const WavelengthSets& wavelengths = {},
+                      Scratch* scratch = nullptr, size_t set = 0)
+      : wanted_(wanted),
+        wavelengths_(wavelengths[set]),
+        set_(set),
+        balance_(wavelengths.balance()),
+        scratch_(scratch) {}
   void add(Component component, const Spectrum& radiance) {
     if (wanted_.has(component)) radiance_[size_t(component)] += radiance;
   }
@@ -98,6 +106,11 @@ class SampleSink {
   void count_rays(uint64_t rays) { rays_ += rays; }
 
   const Wavelengths& wavelengths() const { return wavelengths_; }
+  size_t set() const { return set_; }
+  /// Linear Rec. 709 of light in the sink's lanes, as the film is to have it.
+  Spectrum rgb(const Spectrum& lanes) const {
+    return rgb_from_lanes(lanes, wavelengths_) * balance_;
+  }
   const Spectrum& radiance(Component component) const { return radiance_[size_t(component)]; }
   /// All components that are finite, as lane_sum() adds up their lanes.
   double all_light() const {
@@ -116,6 +129,8 @@ class SampleSink {
  private:
   ComponentSet wanted_;
   Wavelengths wavelengths_;
+  size_t set_;
+  Spectrum balance_;
   std::array<Spectrum, component_count> radiance_{};
   Spectrum bias_;
   FirstHit first_hit_;
@@ -152,6 +167,8 @@ struct IntegratorTraits {
   bool samples_camera = true;   ///< sample() does something
   bool estimates_bias = false;  ///< sample() estimates its bias: SampleSink::add_bias()
   ComponentSet components = ComponentSet::all();  ///< that its results hold
+  /// Most sets of wavelengths that a pass may have in spectral mode.
+  size_t most_wavelength_sets = WavelengthSets::most;
   /// Samples per pixel and pass if the user asks for nothing else.
   uint32_t default_samples_per_pass = 4;
 };

@@ -34,7 +34,7 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   const bool merges = inputs.weights.settings().techniques.merging && merging > 0;
   report.photons += merges ? merging : connectible;
   LightVertices result = join(blocks, inputs.scene.gauges().size(), inputs.gauges, stop);
-  result.wavelengths = pass.wavelengths;
+  result.wavelengths = pass.wavelengths[inputs.set];
   result.path_count = inputs.light_paths;
   result.remembered_paths = std::min(inputs.remembered_paths, inputs.light_paths);
   return result;

@@ -16,7 +16,8 @@ struct VcmLightInputs {
   const PathWeights& weights;
   ComponentSet components = ComponentSet::all();
   int maximum_events = any_number_of_events;
-  uint32_t light_paths = 1;
+  uint32_t light_paths = 1;  ///< of the set
+  size_t set = 0;            ///< of the pass's wavelengths
   float camera_samples = 1;  ///< per pixel
   const PixelPlans& plans;
   float shrinkage = 1;  ///< of the disks of merging since the first pass

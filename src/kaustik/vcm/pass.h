@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 
 #include "kaustik/transport/integrator.h"
@@ -39,11 +40,28 @@ class VcmPass {
 
   const VcmPlans& plans() const { return *plans_; }
   const Pass& pass() const { return pass_; }
-  const LightVertices& light() const { return light_; }
+  /// Of the first set of wavelengths.
+  const LightVertices& light() const { return sets_[0].vertices; }
+  std::vector<const LightVertices*> light_of_sets() const;
 
  private:
+  /// The light paths of a set of wavelengths, and what samples of the same set need of them.
+  struct LightOfSet {
+    LightVertices vertices;
+    MattMerging matt;
+    LightTails tails;
+    SidedTree<LightVertexData> focused;    ///< focused_vertices() of it, if there is a cache, …
+    MattMerging focused_matt;              ///< … and merging with them
+    std::unique_ptr<IndirectCache> cache;  ///< null: there is none
+    float connection_scale = 0;
+  };
+
+  /// Light paths of each set of wavelengths.
+  uint32_t light_paths_of_set() const;
   PathWeights make_weights() const;
-  void fill_cache(const std::stop_token& stop, PassReport& report);
+  void trace_set(size_t set, const LightPathAims& aims, SplatBuffer& splats, std::stop_token stop,
+                 const ProgressFunction& progress, PassReport& report);
+  void fill_cache(size_t set, const std::stop_token& stop, PassReport& report);
   /// Whether first vertices choose their plans, PixelPlans::at().
   bool goes_by_surfaces() const;
 
@@ -58,13 +76,7 @@ class VcmPass {
   float shrinkage_;    ///< of the disks of merging since the first pass
   MediumDisks media_;  ///< shrunk
   GaugeDisks gauges_;
-  LightVertices light_;
-  MattMerging matt_;
-  LightTails tails_;
-  SidedTree<LightVertexData> focused_;    ///< focused_vertices() of it, if there is a cache, …
-  MattMerging focused_matt_;              ///< … and merging with them
-  std::unique_ptr<IndirectCache> cache_;  ///< null: there is none
-  float connection_scale_ = 0;
+  std::array<LightOfSet, WavelengthSets::most> sets_;
 };
 
 }  // namespace kaustik

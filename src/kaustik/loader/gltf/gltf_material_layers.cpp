@@ -67,6 +67,10 @@ std::shared_ptr<Object> MaterialReader::glass() {
   auto bsdf = make_object("bsdf", type, place_);
   give(*bsdf, "int_ior", ior());
   give(*bsdf, "ext_ior", 1.0);
+  // The extension has 20 over the Abbe number.
+  if (const JsonValue* dispersion = extension("KHR_materials_dispersion"))
+    if (const double value = file_.number(*dispersion, "dispersion", 0); value > 0)
+      give(*bsdf, "abbe_number", std::clamp(20 / value, 1.0, 1000.0));
   if (roughness > 0) {
     give(*bsdf, "distribution", "ggx");
     give(*bsdf, "alpha", roughness * roughness);

@@ -89,6 +89,8 @@ Surface MaterialReader::read() {
     read_clearcoat(*bsdf);
     read_sheen(*bsdf);
     read_diffuse_transmission(*bsdf);
+    if (extension("KHR_materials_dispersion"))
+      ignored("its KHR_materials_dispersion is not rendered: it is not clear glass alone");
   }
   surface.bsdf = masked(bent(std::move(bsdf)));
   surface.interior = interior();
@@ -278,6 +280,7 @@ void MaterialReader::tell_of_others() const {
   constexpr std::string_view known[] = {"KHR_materials_emissive_strength",
                                         "KHR_materials_transmission",
                                         "KHR_materials_volume",
+                                        "KHR_materials_dispersion",
                                         "KHR_materials_ior",
                                         "KHR_materials_specular",
                                         "KHR_materials_clearcoat",

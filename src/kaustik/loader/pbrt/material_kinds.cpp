@@ -141,16 +141,37 @@ void set_facets(Object& bsdf, const Facets& facets) {
   set(bsdf, "alpha_v", facets.v);
 }
 
-double index_of(const MaterialTools& tools, std::string_view name, double otherwise) {
+/// An index of refraction, and how much it depends on the wavelength.
+struct Index {
+  double yellow;               ///< near 588 nm
+  std::optional<double> abbe;  ///< Abbe number; absent: it is the same everywhere, or not known
+};
+
+Index index_and_dispersion(const MaterialTools& tools, std::string_view name, double otherwise) {
   const std::string glass = Spectra::name_of(tools.list(), name);
   const auto known = index_of_glass(glass);
   const auto value =
       known ? std::optional<Value>(*known)
             : tools.spectra.read(tools.list(), name, SpectrumUse::coefficient, tools.owner());
-  if (!value) return otherwise;
-  if (known || !as_number(*value))
+  if (!value) return {otherwise, std::nullopt};
+  return {number_of_index(*value), known ? abbe_of_glass(glass) : abbe_of_index(*value)};
+}
+
+/// For what has one index.
+double index_of(const MaterialTools& tools, std::string_view name, double otherwise) {
+  const Index index = index_and_dispersion(tools, name, otherwise);
+  if (index.abbe)
     tools.approximated("it has one index of refraction, that of yellow light: nothing disperses");
-  return number_of_index(*value);
+  return index.yellow;
+}
+
+/// For glass, which disperses in spectral mode.
+void set_glass(Object& bsdf, const MaterialTools& tools) {
+  const Index index = index_and_dispersion(tools, "eta", 1.5);
+  set_indices(bsdf, index.yellow);
+  if (!index.abbe) return;
+  set(bsdf, "abbe_number", *index.abbe);
+  tools.approximated("an Abbe number tells how its index of refraction depends on the wavelength");
 }
 
 std::shared_ptr<Object> make_diffuse(const MaterialTools& tools) {
@@ -220,7 +241,7 @@ std::shared_ptr<Object> make_coated_conductor(const MaterialTools& tools) {
 std::shared_ptr<Object> make_dielectric(const MaterialTools& tools) {
   const Facets facets = facets_of(tools);
   auto bsdf = described("bsdf", facets.is_smooth ? "dielectric" : "roughdielectric", tools.place());
-  set_indices(*bsdf, index_of(tools, "eta", 1.5));
+  set_glass(*bsdf, tools);
   if (!facets.is_smooth) set_facets(*bsdf, facets);
   // Those of v3.
   for (const auto& [old_name, name] :
@@ -236,7 +257,7 @@ std::shared_ptr<Object> make_dielectric(const MaterialTools& tools) {
 
 std::shared_ptr<Object> make_thin_dielectric(const MaterialTools& tools) {
   auto bsdf = described("bsdf", "thindielectric", tools.place());
-  set_indices(*bsdf, index_of(tools, "eta", 1.5));
+  set_glass(*bsdf, tools);
   return bsdf;
 }
 

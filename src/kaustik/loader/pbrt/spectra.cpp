@@ -31,13 +31,18 @@ constexpr Illuminant illuminants[] = {
 /// At the yellow helium line, from the makers' data sheets; pbrt's F names mean SF glasses.
 struct Glass {
   std::string_view name;
-  double index;
+  double index, abbe;
 };
-constexpr Glass glasses[] = {{"glass-BK7", 1.5168},   {"glass-BAF10", 1.6700},
-                             {"glass-FK51A", 1.4866}, {"glass-LASF9", 1.8503},
-                             {"glass-F5", 1.6727},    {"glass-SF5", 1.6727},
-                             {"glass-F10", 1.7283},   {"glass-SF10", 1.7283},
-                             {"glass-F11", 1.7847},   {"glass-SF11", 1.7847}};
+constexpr Glass glasses[] = {{"glass-BK7", 1.5168, 64.17},   {"glass-BAF10", 1.6700, 47.11},
+                             {"glass-FK51A", 1.4866, 84.47}, {"glass-LASF9", 1.8503, 32.17},
+                             {"glass-F5", 1.6727, 32.25},    {"glass-SF5", 1.6727, 32.25},
+                             {"glass-F10", 1.7283, 28.41},   {"glass-SF10", 1.7283, 28.41},
+                             {"glass-F11", 1.7847, 25.76},   {"glass-SF11", 1.7847, 25.76}};
+
+const Glass* glass_of(const std::string& name) {
+  const auto* found = std::ranges::find(glasses, name, &Glass::name);
+  return found == std::end(glasses) ? nullptr : found;
+}
 
 constexpr std::string_view metals[] = {"ag", "al", "au", "cu", "cuzn", "mgo", "tio2"};
 
@@ -48,6 +53,16 @@ constexpr double yellow_nm = 587.6;
 Rgb colour_of_light(double x, double y) {
   const Rgb colour = rgb_from_xyz({x / y, 1, (1 - x - y) / y});
   return {std::max(0.0, colour.r), std::max(0.0, colour.g), std::max(0.0, colour.b)};
+}
+
+/// Linear between the samples, at least one; constant outside.
+double at_wavelength(const SpectralCurve& curve, double nm) {
+  const auto& samples = curve.samples;
+  const auto next = std::ranges::find_if(samples, [nm](const auto& s) { return s.first > nm; });
+  if (next == samples.begin()) return samples.front().second;
+  if (next == samples.end()) return samples.back().second;
+  const auto& [low_nm, low] = *(next - 1);
+  return low + (next->second - low) * (nm - low_nm) / (next->first - low_nm);
 }
 
 /// Of Kaustik's; "": it is none.
@@ -66,9 +81,22 @@ std::string metal_of_file(const std::string& path) {
 }  // namespace
 
 std::optional<double> index_of_glass(const std::string& name) {
-  for (const Glass& glass : glasses)
-    if (glass.name == name) return glass.index;
-  return std::nullopt;
+  const Glass* glass = glass_of(name);
+  return glass ? std::optional(glass->index) : std::nullopt;
+}
+
+std::optional<double> abbe_of_glass(const std::string& name) {
+  const Glass* glass = glass_of(name);
+  return glass ? std::optional(glass->abbe) : std::nullopt;
+}
+
+std::optional<double> abbe_of_index(const Value& value) {
+  const auto* curve = std::get_if<SpectralCurve>(&value);
+  if (!curve || curve->samples.empty()) return std::nullopt;
+  // Hydrogen's F and C.
+  const double spread = at_wavelength(*curve, 486.1) - at_wavelength(*curve, 656.3);
+  if (!(spread > 0 && number_of_index(value) > 1)) return std::nullopt;
+  return std::clamp((number_of_index(value) - 1) / spread, 1.0, 1000.0);
 }
 
 std::string metal_of(const std::string& name) {
@@ -80,14 +108,7 @@ double number_of_index(const Value& value) {
   if (const auto number = as_number(value)) return *number;
   if (const auto* colour = std::get_if<Rgb>(&value)) return colour->g;
   const auto* curve = std::get_if<SpectralCurve>(&value);
-  if (!curve || curve->samples.empty()) return 1.5;
-  const auto& samples = curve->samples;
-  const auto next =
-      std::ranges::find_if(samples, [](const auto& s) { return s.first > yellow_nm; });
-  if (next == samples.begin()) return samples.front().second;
-  if (next == samples.end()) return samples.back().second;
-  const auto& [low_nm, low] = *(next - 1);
-  return low + (next->second - low) * (yellow_nm - low_nm) / (next->first - low_nm);
+  return curve && !curve->samples.empty() ? at_wavelength(*curve, yellow_nm) : 1.5;
 }
 
 std::string Spectra::name_of(const ParameterList& list, std::string_view name) {

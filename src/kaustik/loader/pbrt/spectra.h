@@ -64,6 +64,11 @@ class Spectra {
 
 /// Index of refraction of a named glass at 587.6 nm, such as "glass-BK7"; nothing: there is none.
 std::optional<double> index_of_glass(const std::string& name);
+/// The Abbe number of such a glass.
+std::optional<double> abbe_of_glass(const std::string& name);
+/// The same of an index that is given as a curve; nothing: it is none, or does not fall with the
+/// wavelength.
+std::optional<double> abbe_of_index(const Value& value);
 /// Kaustik's name of a metal whose eta or k is named, such as "cu" of "metal-Cu-k"; "": none.
 std::string metal_of(const std::string& name);
 /// One number of what may be a curve, which counts near 588 nm; of a colour its green.

@@ -47,14 +47,24 @@ bool go_on_by_delta_event(CameraWalk& walk) {
 
 }  // namespace
 
-IndirectCache::IndirectCache(const GatherInputs& inputs, const Pass& pass, int gather_rays,
-                             const std::stop_token& stop)
-    : in_(inputs), pass_(pass), light_(inputs, stop), cache_(settings_of(pass, gather_rays)) {}
+IndirectCache::IndirectCache(const GatherInputs& inputs, const Pass& pass, size_t set,
+                             int gather_rays, const std::stop_token& stop)
+    : in_(inputs),
+      pass_(pass),
+      set_(set),
+      light_(inputs, stop),
+      cache_(settings_of(pass, gather_rays)) {}
+
+Sampler IndirectCache::numbers(uint64_t address) const {
+  const uint32_t round_of_set = uint32_t(set_) * most_rounds + round_;
+  return Sampler::at(pass_.seed, pass_.index, Stream::cache, address, round_of_set);
+}
 
 void IndirectCache::fill_round(const std::stop_token& stop) {
   const std::vector<CachePoint> points = points_of_round(strides[round_], stop);
   if (stop.stop_requested()) return;
-  const Sampler sampler = Sampler::at(pass_.seed, pass_.index, Stream::cache, 0, 0);
+  const Sampler sampler =
+      Sampler::at(pass_.seed, pass_.index, Stream::cache, 0, uint32_t(set_) * most_rounds);
   cache_.fill_round(points, light_, sampler, round_++, stop);
 }
 
@@ -68,12 +78,12 @@ std::vector<CachePoint> IndirectCache::points_of_round(int stride,
     for (int x = first.x; x < end.x && !stop.stop_requested(); ++x) {
       const Vec2i pixel = Vec2i(x, first.y + int(row)) * stride;
       const uint64_t address = uint64_t(pixel.y) * uint64_t(film.size.x) + uint64_t(pixel.x) + 1;
-      Sampler numbers = Sampler::at(pass_.seed, pass_.index, Stream::cache, address, round_);
+      Sampler sampler = numbers(address);
       const Vec2i corner = pixel - film.crop_offset;
       const Vec2f raster =
-          Vec2f(float(corner.x), float(corner.y)) + numbers.next_2d() * float(stride);
-      SampleSink nowhere{ComponentSet(), pass_.wavelengths};
-      CameraWalk walk(in_.scene, raster, numbers, nowhere);
+          Vec2f(float(corner.x), float(corner.y)) + sampler.next_2d() * float(stride);
+      SampleSink nowhere{ComponentSet(), pass_.wavelengths, nullptr, set_};
+      CameraWalk walk(in_.scene, raster, sampler, nowhere);
       for (int i = 0; i < most_vertices && advance_to_vertex(walk, in_.maximum_events); ++i) {
         rows[row].push_back(cache_point_of(walk));
         if (!go_on_by_delta_event(walk)) break;

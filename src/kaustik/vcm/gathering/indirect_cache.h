@@ -21,9 +21,9 @@ class IndirectCache {
   /// Gather rays of a record that there are at least, and at most.
   static constexpr int least_gather_rays = 64, most_gather_rays = 512;
 
-  /// Empty. What `inputs` refer to must outlive it. All lengths shrink as radii do, by the stage of
-  /// `pass`. Records have so many gather rays.
-  IndirectCache(const GatherInputs& inputs, const Pass& pass, int gather_rays,
+  /// Empty, for light of set number `set` of the pass. What `inputs` refer to must outlive it. All
+  /// lengths shrink as radii do, by the stage of `pass`. Records have so many gather rays.
+  IndirectCache(const GatherInputs& inputs, const Pass& pass, size_t set, int gather_rays,
                 const std::stop_token& stop = {});
 
   /// The next of its rounds. Worth nothing if it was stopped. Not while others ask.
@@ -50,10 +50,12 @@ class IndirectCache {
   uint64_t rays_dropped() const { return cache_.rays_dropped(); }
 
  private:
+  Sampler numbers(uint64_t address) const;
   std::vector<CachePoint> points_of_round(int stride, const std::stop_token& stop) const;
 
   GatherInputs in_;
   Pass pass_;
+  size_t set_;
   GatheredLight light_;
   IrradianceCache cache_;
   uint32_t round_ = 0;

@@ -33,7 +33,7 @@ class GuideLesson final : public Lesson {
   }
   std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught,
                                       const std::stop_token& stop) const override {
-    return std::make_unique<GuideSums>(use_->seen_in(taught.light, stop));
+    return std::make_unique<GuideSums>(use_->seen_in(*taught.light.front(), stop));
   }
   std::unique_ptr<LessonSums> read_sums(ByteReader& reader) const override {
     return std::make_unique<GuideSums>(use_->read_seen(reader));

@@ -30,7 +30,8 @@ struct LessonNeeds {
 
 /// A pass whose light paths have been traced, for who learns from it.
 struct TaughtPass {
-  const LightVertices& light;
+  /// By sets of wavelengths, one at least.
+  std::vector<const LightVertices*> light;
   /// Lesson::places(), and the pairs that were traced there.
   std::span<const TrainingPlace> places = {};
   std::span<const TrainingPair> pairs = {};

@@ -91,7 +91,7 @@ std::vector<std::unique_ptr<LessonSums>> VcmLessons::sums_of(const VcmPass& trac
     for (const TrainingPair& pair : pairs) rays += pair.rays[0] + pair.rays[1];
     if (stop.stop_requested()) return {};
     sums.push_back(
-        lesson->sums_of({.light = traced.light(), .places = places, .pairs = pairs}, stop));
+        lesson->sums_of({.light = traced.light_of_sets(), .places = places, .pairs = pairs}, stop));
   }
   if (stop.stop_requested()) return {};
   return sums;
@@ -161,6 +161,7 @@ uint32_t VcmLessons::make_up(const Pass& pass, uint32_t until, const std::stop_t
   for (uint32_t i = 0; i < count && !stop.stop_requested(); ++i) {
     Pass missing = pass;
     missing.index = passes_;
+    missing.wavelengths = pass.wavelengths.of_other_pass(pass.seed, passes_);
     trace_next(missing, stop, part_of(progress, i, count + 1), report);
   }
   return count;

@@ -6,6 +6,7 @@ ProbeLight::ProbeLight(const PixelProbe& probe, ComponentSet wanted, const Wavel
     : vertex_(probe.vertex.in(wavelengths)),
       path_(probe.path),
       wanted_(wanted),
+      lane_sum_scale_(kaustik::lane_sum_scale(wavelengths)),
       is_matt_(vertex_.is_matt()) {
   if (!is_matt_) return;
   for (const bool specular : {false, true})

@@ -16,7 +16,7 @@ class ProbeLight {
   float sent(const LightVertexData& photon) const {
     const Spectrum value =
         is_matt_ ? matt_[photon.specular ? 1 : 0] : value_of(photon.direction.unpack(), photon);
-    return lane_sum(value * photon.flux.spectrum(), vertex_.wavelengths());
+    return (value * photon.flux.spectrum()).sum() * lane_sum_scale_;
   }
 
  private:
@@ -27,6 +27,7 @@ class ProbeLight {
   SurfaceVertex vertex_;  ///< of the probe, in those wavelengths
   CameraPathClass path_;
   ComponentSet wanted_;
+  float lane_sum_scale_;
   bool is_matt_;      ///< the bsdf has one value for all directions
   Spectrum matt_[2];  ///< that, of light by diffuse events and by specular ones alone
 };

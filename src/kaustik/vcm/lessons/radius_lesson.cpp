@@ -44,8 +44,12 @@ class RadiusLesson final : public Lesson {
   LessonNeeds needs_of(uint32_t) const override { return {.light = true}; }
   std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught,
                                       const std::stop_token& stop) const override {
-    return std::make_unique<RadiusSums>(
-        RadiusLearning::sums_of(first_.pixels, taught.light, wanted_, sums_, stop));
+    std::vector<RadiusLearning::Sums> all(sums_.size());
+    for (const LightVertices* light : taught.light) {
+      const auto of_set = RadiusLearning::sums_of(first_.pixels, *light, wanted_, sums_, stop);
+      for (size_t i = 0; i < all.size(); ++i) all[i].add(of_set[i]);
+    }
+    return std::make_unique<RadiusSums>(std::move(all));
   }
   std::unique_ptr<LessonSums> read_sums(ByteReader& reader) const override {
     return std::make_unique<RadiusSums>(sums_from(reader));

@@ -19,7 +19,11 @@ class Tracer {
         techniques_(in.weights.settings().techniques),
         pass_(pass),
         stream_(stream),
-        splats_(in.scene, in.components, in.light_paths, splats) {}
+        wavelengths_(pass.wavelengths[in.set]),
+        first_path_(uint32_t(in.set) * in.light_paths),
+        // The picture is the mean over the sets.
+        splats_(in.scene, in.components, in.light_paths * uint32_t(pass.wavelengths.count()),
+                splats) {}
 
   LightBlock trace(uint32_t begin, uint32_t end) {
     begin_ = begin;
@@ -54,14 +58,14 @@ class Tracer {
 
   std::optional<LightPath> start(uint32_t i) {
     LightPathUnderWay& path = paths_[i - begin_];
-    Sampler sampler = Sampler::at(pass_.seed, pass_.index, stream_, 0, i);
-    path.start = in_.emission.sample(sampler, pass_.wavelengths);
+    Sampler sampler = Sampler::at(pass_.seed, pass_.index, stream_, 0, first_path_ + i);
+    path.start = in_.emission.sample(sampler, wavelengths_);
     const LightPathStart& start = path.start;
     if (start.light < 0 || start.emitted.flux.is_zero() || in_.maximum_events < 1)
       return std::nullopt;
     begin_light_path(start, path);
     return LightPath(start.emitted.ray, start.emitted.flux, in_.scene.light_medium(start.light),
-                     Lobes::specular, sampler, pass_.wavelengths);
+                     Lobes::specular, sampler, wavelengths_);
   }
 
   /// On a surface.
@@ -250,6 +254,8 @@ class Tracer {
   const Techniques techniques_;
   const Pass& pass_;
   Stream stream_;
+  const Wavelengths wavelengths_;
+  const uint32_t first_path_;  ///< of the set
   CameraSplats splats_;
   uint32_t begin_ = 0;
   std::vector<LightPathUnderWay> paths_;

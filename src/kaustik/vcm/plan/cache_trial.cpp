@@ -36,8 +36,8 @@ TrialCaches::TrialCaches(const GatherInputs& inputs, const PixelPlans& pixels,
                          const std::stop_token& stop)
     : in_(inputs),
       pixels_(pixels),
-      caches_{{inputs, trial_pass(0), trial_rays, stop},
-              {inputs, trial_pass(1), trial_rays, stop}} {}
+      caches_{{inputs, trial_pass(0), 0, trial_rays, stop},
+              {inputs, trial_pass(1), 0, trial_rays, stop}} {}
 
 CacheTrial TrialCaches::next_round(const std::stop_token& stop) {
   for (IndirectCache& cache : caches_) cache.fill_round(stop);
