@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "kaustik/scene/file_stamp.h"
 #include "merge_options.h"
 #include "option_values.h"
+#include "progress_options.h"
 #include "screen.h"
 
 namespace kaustik::app {
@@ -30,10 +32,14 @@ void merge_photons(const MergeOptions& options, FileRoles& roles) {
   add_merged_output(roles, output, {"a photon map", is_photon_file}, options.force);
   std::vector<StoredPhotons> parts;
   for (const std::string& input : options.inputs) parts.push_back(read_photon_file(input));
-  const StoredPhotons whole = merged_photons(parts);
-  write_photon_file(output, whole);
-  say("wrote {}: {} global and {} caustic photons", output, whole.maps.global.size(),
-      whole.maps.caustic.size());
+  ProgressDisplay progress(progress_style({}));
+  const auto begin = std::chrono::steady_clock::now();
+  const PhotonCounts counts = write_merged_photons(output, parts, [&](double share) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    progress.show(share, elapsed.count());
+  });
+  progress.finish();
+  say("wrote {}: {} global and {} caustic photons", output, counts[0], counts[1]);
 }
 
 /// Whether all that the parts hold is in it: images have neither passes nor photons.
@@ -114,7 +120,8 @@ void add_merge(CLI::App& program) {
   command->footer(
       "The result has the same bits as a single run, whatever the order of the parts. A checkpoint "
       "of some parts can be merged with others. Passes need the memory of one film, however many "
-      "parts there are. If a part is damaged, given twice, or of another render, nothing is "
+      "parts there are; photons some hundred MB, and twice their room on the disk meanwhile. If a "
+      "part is damaged, given twice, or of another render, nothing is "
       "written "
       "and nothing is removed.");
   auto o = std::make_shared<MergeOptions>();

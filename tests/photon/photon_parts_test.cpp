@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "tests/photon/emission_scenes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kaustik {
 namespace {
@@ -67,6 +71,50 @@ TEST(PhotonParts, MergedAreTheWholePass) {
     EXPECT_EQ(a.absorbed, b.absorbed);
     EXPECT_NEAR(a.stored_flux, b.stored_flux, 1e-9 * b.stored_flux);
   }
+}
+
+std::string bytes_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(PhotonParts, MergedOnTheDiskHaveTheBytesOfTheWholePass) {
+  const auto scene = lamps_and_mirror();
+  const TemporaryFolder folder;
+  const StoredPhotons whole = traced_part(*scene, PhotonPart{});
+  write_photon_file(folder.path("whole.kpm"), whole);
+  const std::vector<StoredPhotons> parts = parts_of(*scene, 5);
+  // Runs of a few photons, and all at once.
+  for (const size_t in_memory : {size_t{700}, size_t{1} << 20}) {
+    SCOPED_TRACE(in_memory);
+    std::vector<double> told;
+    const PhotonCounts counts = write_merged_photons(
+        folder.path("merged.kpm"), parts, [&](double share) { told.push_back(share); }, in_memory);
+    EXPECT_EQ(counts[0], whole.maps.global.size());
+    EXPECT_EQ(counts[1], whole.maps.caustic.size());
+    EXPECT_EQ(read_photon_file(folder.path("merged.kpm")).maps.global_report.total().stored,
+              counts[0]);
+    // The sums of flux differ in their last bits: they are added in another order.
+    StoredPhotons merged = read_photon_file(folder.path("merged.kpm"));
+    merged.maps.global_report = whole.maps.global_report;
+    merged.maps.caustic_report = whole.maps.caustic_report;
+    write_photon_file(folder.path("merged.kpm"), merged);
+    EXPECT_EQ(bytes_of_file(folder.path("merged.kpm")), bytes_of_file(folder.path("whole.kpm")));
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_LE(told.empty() ? 1 : told.back(), 1);
+  }
+  // Nothing of what was kept meanwhile is left.
+  const std::filesystem::directory_iterator entries(folder.path(""));
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 2);
+}
+
+TEST(PhotonParts, WrongPartsLeaveNoFile) {
+  const auto scene = lamps_and_mirror();
+  const TemporaryFolder folder;
+  const std::vector<StoredPhotons> parts = parts_of(*scene, 2);
+  EXPECT_THROW(write_merged_photons(folder.path("merged.kpm"), std::span(parts).first(1)), Error);
+  EXPECT_THROW(write_merged_photons(folder.path("missing/merged.kpm"), parts), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
 }
 
 TEST(PhotonParts, PartsDiffer) {

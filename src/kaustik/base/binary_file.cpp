@@ -50,6 +50,21 @@ std::vector<uint8_t> BinaryWriter::finished() {
   return std::move(bytes_);
 }
 
+void add_checksum(AtomicFile& file, uint64_t size) {
+  RunningChecksum sum(size);
+  std::vector<uint8_t> piece(size_t(std::min<uint64_t>(size, piece_bytes)));
+  for (uint64_t at = 0; at < size;) {
+    const auto part = std::span(piece).first(size_t(std::min<uint64_t>(size - at, piece_bytes)));
+    file.read(at, part);
+    sum.add(part);
+    at += part.size();
+  }
+  std::array<uint8_t, checksum_size> bytes;
+  const uint64_t value = sum.value();
+  std::memcpy(bytes.data(), &value, checksum_size);
+  file.write(size, bytes);
+}
+
 BinaryReader::BinaryReader(const BinaryFileKind& kind, const std::string& path, FileCheck check)
     : kind_(kind), path_(path), file_(std::make_unique<const InputFile>(path)) {
   size_ = unloaded_ = file_->size();
@@ -132,6 +147,20 @@ void BinaryReader::load_from_file(size_t count) {
   unloaded_ -= more;
   unloaded_begin_ += more;
   rest_ = bytes_;
+}
+
+void BinaryReader::skip_to(uint64_t position) {
+  uint64_t count = position - this->position();
+  need(count, 1);
+  const auto loaded = size_t(std::min<uint64_t>(count, rest_.size()));
+  rest_ = rest_.subspan(loaded);
+  count -= loaded;
+  unloaded_ -= count;
+  unloaded_begin_ += count;
+}
+
+std::shared_ptr<const std::span<const uint8_t>> BinaryReader::mapped() const {
+  return file_->mapped();
 }
 
 void BinaryReader::copy_to(uint8_t* out, uint64_t count) {

@@ -14,6 +14,7 @@
 
 namespace kaustik {
 
+class AtomicFile;
 class InputFile;
 
 /// A kind of file and what people are told of it.
@@ -39,6 +40,8 @@ class BinaryWriter {
   void put_bytes(const void* data, size_t size);
   void put_text(const std::string& text);
   void reserve(size_t more) { bytes_.reserve(bytes_.size() + more + sizeof(uint64_t)); }
+  /// Frame and content so far, for who writes the rest elsewhere.
+  std::span<const uint8_t> bytes() const { return bytes_; }
   /// Adds the checksum and writes atomically; throws as write_file_atomically() does.
   void write_to(const std::string& path);
   /// The same, as write_file_atomically_if() does.
@@ -49,6 +52,10 @@ class BinaryWriter {
  private:
   std::vector<uint8_t> bytes_;
 };
+
+/// Adds the checksum behind so many bytes of a file that was written piece by piece, which is what
+/// a BinaryWriter would have collected.
+void add_checksum(AtomicFile& file, uint64_t size);
 
 /// Whether a file's bytes are compared with its checksum before they are used. Who looks at the
 /// first of them only, and believes nothing, may save the time that it takes to read all.
@@ -106,6 +113,12 @@ class BinaryReader {
   /// "the photon map is damaged: " and why.
   [[noreturn]] void damaged(const std::string& why) const;
   const std::string& path() const { return path_; }
+  /// Of a file on the disk: where the next byte to be read lies in it.
+  uint64_t position() const { return unloaded_begin_ - rest_.size(); }
+  /// Goes on from there, which is not before position(). Throws if the file ends before.
+  void skip_to(uint64_t position);
+  /// All of a file on the disk, as InputFile::mapped().
+  std::shared_ptr<const std::span<const uint8_t>> mapped() const;
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;

@@ -10,6 +10,13 @@
 
 namespace kaustik {
 
+/// The bytes of items, as they lie in memory.
+template <typename Item>
+std::span<const uint8_t> bytes_in(std::span<const Item> items) {
+  static_assert(std::is_trivially_copyable_v<Item>);
+  return {reinterpret_cast<const uint8_t*>(items.data()), items.size_bytes()};
+}
+
 /// Collects numbers.
 class ByteWriter {
  public:

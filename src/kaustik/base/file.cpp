@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -140,6 +141,38 @@ void remove_leftovers(const std::string& target) {
   }
 }
 
+/// False (errno says why) if not all was written.
+bool write_all(int descriptor, uint64_t begin, std::span<const uint8_t> bytes) {
+  // Some systems refuse more than 2 GiB in one call.
+  constexpr size_t most_at_once = size_t{1} << 30;
+  while (!bytes.empty()) {
+    const ssize_t written =
+        ::pwrite(descriptor, bytes.data(), std::min(bytes.size(), most_at_once), off_t(begin));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes = bytes.subspan(size_t(written));
+    begin += uint64_t(written);
+  }
+  return true;
+}
+
+/// How many bytes were read: fewer at the end of the file, or (errno is not 0) if it fails.
+size_t read_all(int descriptor, uint64_t begin, std::span<uint8_t> out) {
+  errno = 0;
+  size_t filled = 0;
+  while (filled < out.size()) {
+    const ssize_t count =
+        ::pread(descriptor, out.data() + filled, out.size() - filled, off_t(begin + filled));
+    if (count < 0 && errno == EINTR) {
+      errno = 0;
+      continue;
+    }
+    if (count <= 0) break;
+    filled += size_t(count);
+  }
+  return filled;
+}
+
 /// A new file beside the target; it removes itself unless it has been renamed.
 class TemporaryFile {
  public:
@@ -162,16 +195,13 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  void write(std::span<const uint8_t> bytes) {
-    // Some systems refuse more than 2 GiB in one call.
-    constexpr size_t most_at_once = size_t{1} << 30;
-    while (!bytes.empty()) {
-      const ssize_t written =
-          ::write(file_->get(), bytes.data(), std::min(bytes.size(), most_at_once));
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(errno);
-      bytes = bytes.subspan(size_t(written));
-    }
+  void write(uint64_t begin, std::span<const uint8_t> bytes) {
+    if (!write_all(file_->get(), begin, bytes)) fail(errno);
+  }
+  void read(uint64_t begin, std::span<uint8_t> out) const {
+    if (read_all(file_->get(), begin, out) != out.size())
+      throw Error(ErrorKind::system, fmt::format("cannot read '{}' again", path_),
+                  "check the disk and write it again");
   }
 
   /// Makes it safe on the disk, with the target's permissions if there is one.
@@ -304,18 +334,31 @@ size_t InputFile::read(uint64_t begin, std::span<uint8_t> out) const {
     std::copy_n(from, count, out.begin());
     return count;
   }
-  size_t filled = 0;
-  while (filled < out.size()) {
-    const ssize_t count =
-        ::pread(descriptor_, out.data() + filled, out.size() - filled, off_t(begin + filled));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
-      throw Error(ErrorKind::system, fmt::format("cannot read '{}': {}", path_, text_of(errno)),
-                  "check the disk");
-    if (count == 0) break;
-    filled += size_t(count);
-  }
+  const size_t filled = read_all(descriptor_, begin, out);
+  if (filled < out.size() && errno != 0)
+    throw Error(ErrorKind::system, fmt::format("cannot read '{}': {}", path_, text_of(errno)),
+                "check the disk");
   return filled;
+}
+
+std::shared_ptr<const std::span<const uint8_t>> InputFile::mapped() const {
+  if (size_ == 0) return std::make_shared<const std::span<const uint8_t>>();
+  void* const begin = ::mmap(nullptr, size_, PROT_READ, MAP_SHARED, descriptor_, 0);
+  if (begin == MAP_FAILED)
+    throw Error(ErrorKind::system,
+                fmt::format("cannot map '{}' into memory: {}", path_, text_of(errno)),
+                "copy it to a local disk");
+  const size_t size = size_;
+  try {
+    return {new std::span<const uint8_t>(static_cast<const uint8_t*>(begin), size),
+            [](const std::span<const uint8_t>* bytes) {
+              ::munmap(const_cast<uint8_t*>(bytes->data()), bytes->size());
+              delete bytes;
+            }};
+  } catch (...) {
+    ::munmap(begin, size);
+    throw;
+  }
 }
 
 std::string output_target(const std::string& path) {
@@ -341,7 +384,7 @@ void check_output_path(const std::string& path) {
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
   const std::string target = prepared_target(path);
   TemporaryFile file(target);
-  file.write(bytes);
+  file.write(0, bytes);
   file.finish();
   file.replace_target();
 }
@@ -350,12 +393,65 @@ bool write_file_atomically_if(const std::string& path, std::span<const uint8_t> 
                               const std::function<bool()>& is_wanted) {
   const std::string target = prepared_target(path);
   TemporaryFile file(target);
-  file.write(bytes);
+  file.write(0, bytes);
   file.finish();
   const FolderLock lock(folder_of(target));
   if (!is_wanted()) return false;
   file.replace_target();
   return true;
+}
+
+class AtomicFile::File : public TemporaryFile {
+ public:
+  using TemporaryFile::TemporaryFile;
+};
+
+AtomicFile::AtomicFile(const std::string& path)
+    : file_(std::make_unique<File>(prepared_target(path))) {}
+
+AtomicFile::~AtomicFile() = default;
+
+void AtomicFile::write(uint64_t begin, std::span<const uint8_t> bytes) {
+  file_->write(begin, bytes);
+}
+
+void AtomicFile::read(uint64_t begin, std::span<uint8_t> out) const { file_->read(begin, out); }
+
+void AtomicFile::finish() {
+  file_->finish();
+  file_->replace_target();
+}
+
+ScratchFile::ScratchFile(const std::string& path) : path_(prepared_target(path)) {
+  const std::string folder = folder_of(path_);
+  descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (descriptor_ < 0) {
+    // Not every file system has files without a name.
+    std::string name = folder + "/.kaustik-XXXXXX";
+    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor_ >= 0) ::unlink(name.c_str());
+  }
+  if (descriptor_ < 0)
+    throw Error(ErrorKind::system,
+                fmt::format("cannot write to folder '{}': {}", folder, text_of(errno)),
+                "choose another folder");
+}
+
+ScratchFile::~ScratchFile() { ::close(descriptor_); }
+
+void ScratchFile::append(std::span<const uint8_t> bytes) {
+  if (!write_all(descriptor_, size_, bytes))
+    throw Error(ErrorKind::system,
+                fmt::format("cannot write to the folder of '{}': {}", path_, text_of(errno)),
+                "free some space: photons that do not fit into memory are kept there meanwhile");
+  size_ += bytes.size();
+}
+
+void ScratchFile::read(uint64_t begin, std::span<uint8_t> out) const {
+  if (read_all(descriptor_, begin, out) != out.size())
+    throw Error(ErrorKind::system,
+                fmt::format("cannot read what was kept in the folder of '{}'", path_),
+                "check the disk");
 }
 
 void write_text_atomically(const std::string& path, std::string_view text) {

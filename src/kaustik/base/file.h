@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,10 @@ class InputFile {
   /// Fills `out` with what there is from `begin` on; returns how many bytes that are: fewer only
   /// where the file ends. Throws Error(system).
   size_t read(uint64_t begin, std::span<uint8_t> out) const;
+  /// All bytes, of a file that is not packed, read by the system when they are looked at. They
+  /// outlive this. Nobody may write to the file meanwhile; it may be replaced or removed. Throws
+  /// Error(system).
+  std::shared_ptr<const std::span<const uint8_t>> mapped() const;
 
  private:
   struct MayBePacked {};
@@ -66,6 +71,47 @@ void write_text_atomically(const std::string& path, std::string_view text);
 /// lock folders: local ones can, some network disks cannot.
 bool write_file_atomically_if(const std::string& path, std::span<const uint8_t> bytes,
                               const std::function<bool()>& is_wanted);
+
+/// A file that is written piece by piece, and is at its path as a whole or not at all, as
+/// write_file_atomically() has it: where all of it would not fit into memory.
+class AtomicFile {
+ public:
+  /// Throws as check_output_path() does.
+  explicit AtomicFile(const std::string& path);
+  /// Nothing is left unless it was finished.
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  /// Puts bytes from `begin` on. Throws Error(system) if that fails.
+  void write(uint64_t begin, std::span<const uint8_t> bytes);
+  /// Fills `out` with what was written from `begin` on.
+  void read(uint64_t begin, std::span<uint8_t> out) const;
+  /// Puts it at its path, safe on the disk.
+  void finish();
+
+ private:
+  class File;
+  std::unique_ptr<File> file_;
+};
+
+/// A file beside `path` that has no name, for what does not fit into memory: it is gone with the
+/// program, however that ends.
+class ScratchFile {
+ public:
+  /// Throws as check_output_path() of `path`, which need not be there.
+  explicit ScratchFile(const std::string& path);
+  ~ScratchFile();
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  /// Throws Error(system) if that fails.
+  void append(std::span<const uint8_t> bytes);
+  void read(uint64_t begin, std::span<uint8_t> out) const;
+
+ private:
+  std::string path_;
+  int descriptor_;
+  uint64_t size_ = 0;
+};
 
 /// The file that a chain of symbolic links leads to, there or not: what is written to a link.
 /// Throws Error(input) where they lead in a circle.

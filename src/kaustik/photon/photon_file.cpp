@@ -5,8 +5,11 @@
 //   (u8 each), target_budget (i32),
 //   part index and count (u32 each),
 //   twice (global, caustic): report: rays, target_count, number of lights (u64), per light the
-//   seven counts (six u64, one f64); number of photons n (u64), n × position (3 × f32),
-//   n × Photon (32 bytes).
+//   seven counts (six u64, one f64); number of photons (u64), mean flux (f32);
+//   twice (global, caustic), each at a multiple of 64 bytes from the file's begin: the arrays of
+//   the tree, as they are in memory: buckets (192 bytes each, of 16 positions), nodes of all levels
+//   from the lowest on (192 bytes, the boxes of 8 children), photons (32 bytes), sides (50 bytes of
+//   16 photons). How long they are follows from the number of photons.
 #include "kaustik/photon/photon_file.h"
 
 #include <fmt/format.h>
@@ -15,20 +18,43 @@
 #include <cmath>
 
 #include "kaustik/base/binary_file.h"
-#include "kaustik/base/checksum.h"
+#include "kaustik/base/bytes.h"
+#include "kaustik/base/parallel.h"
 
 namespace kaustik {
 namespace {
 
 constexpr BinaryFileKind photon_map_kind = {
     {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'},
-    6,  // Photon's layout is part of the file's
+    7,  // the layouts of Photon and its tree are part of the file's
     "photon map",
     "give a .kpm file, of photons that Kaustik has traced in a scene",
     "trace them again with this version of Kaustik"};
 constexpr size_t bytes_per_photon = sizeof(Vec3f) + sizeof(Photon);
 constexpr size_t bytes_per_light = 7 * sizeof(uint64_t);
 static_assert(std::is_trivially_copyable_v<Photon> && sizeof(Vec3f) == 12);
+static_assert(sizeof(Photon) == 32 && sizeof(KdBuckets::Bucket) == 192 &&
+              sizeof(KdBuckets::Node) == 192 && sizeof(PhotonSides::Block) == 50);
+
+/// At whose multiples arrays begin.
+constexpr uint64_t array_alignment = 64;
+uint64_t aligned(uint64_t place) {
+  return (place + array_alignment - 1) / array_alignment * array_alignment;
+}
+
+/// Where a part of a map of so many photons lies that begins there.
+uint64_t begin_of(TreePart part, uint64_t map_begin, size_t count) {
+  uint64_t begin = aligned(map_begin);
+  for (const TreePart before : tree_parts) {
+    if (before == part) break;
+    begin = aligned(begin + item_count(before, count) * item_bytes(before));
+  }
+  return begin;
+}
+uint64_t end_of(uint64_t map_begin, size_t count) {
+  constexpr TreePart last = tree_parts.back();
+  return begin_of(last, map_begin, count) + item_count(last, count) * item_bytes(last);
+}
 
 void put_wavelengths(BinaryWriter& writer, const Wavelengths& wavelengths) {
   for (int lane = 0; lane < Spectrum::lane_count; ++lane)
@@ -57,7 +83,7 @@ void put_settings(BinaryWriter& writer, const LightPassSettings& s) {
   writer.put(s.part.count);
 }
 
-void put_map(BinaryWriter& writer, const PhotonMap& map, const MapReport& report) {
+void put_report(BinaryWriter& writer, const MapReport& report) {
   writer.put(report.rays);
   writer.put(uint64_t(report.target_count));
   writer.put(uint64_t(report.lights.size()));
@@ -67,13 +93,6 @@ void put_map(BinaryWriter& writer, const PhotonMap& map, const MapReport& report
       writer.put(count);
     writer.put(c.stored_flux);
   }
-  writer.put(uint64_t(map.size()));
-  writer.reserve(map.size() * bytes_per_photon);
-  for (uint32_t i = 0; i < map.size(); ++i) {
-    const Vec3f position = map.tree().key(i);
-    writer.put_bytes(&position, sizeof position);
-  }
-  writer.put_bytes(map.tree().data().data(), map.tree().data().size_bytes());
 }
 
 LightPassSettings get_settings(BinaryReader& reader) {
@@ -96,18 +115,30 @@ LightPassSettings get_settings(BinaryReader& reader) {
   return s;
 }
 
-void check_photons(const BinaryReader& reader, const std::vector<Vec3f>& positions,
-                   const std::vector<Photon>& photons) {
-  for (size_t i = 0; i < photons.size(); ++i) {
-    const Photon& photon = photons[i];
-    bool valid = max_abs(positions[i]) < KdBuckets::max_coordinate && is_finite(positions[i]) &&
-                 photon.distance >= 0 && photon.on_front <= 1;
-    for (const float lane : photon.flux.lanes) valid = valid && std::isfinite(lane) && lane >= 0;
-    if (!valid) reader.damaged(fmt::format("photon {} is not valid", i));
-  }
+bool is_valid(const Vec3f& position, const Photon& photon) {
+  const auto is_flux = [](float lane) { return std::isfinite(lane) && lane >= 0; };
+  return max_abs(position) < KdBuckets::max_coordinate && is_finite(position) &&
+         photon.distance >= 0 && photon.on_front <= 1 &&
+         std::ranges::all_of(photon.flux.lanes, is_flux);
 }
 
-PhotonMap get_map(BinaryReader& reader, MapReport& report) {
+void check_photons(const BinaryReader& reader, const KdBuckets& buckets,
+                   std::span<const Photon> photons) {
+  constexpr size_t block_size = size_t{1} << 16;
+  std::vector<size_t> wrong((photons.size() + block_size - 1) / block_size, photons.size());
+  parallel_blocks(photons.size(), block_size, [&](size_t begin, size_t end, size_t block) {
+    for (size_t i = begin; i < end && wrong[block] == photons.size(); ++i)
+      if (!is_valid(buckets.position(uint32_t(i)), photons[i])) wrong[block] = i;
+  });
+  for (const size_t i : wrong)
+    if (i < photons.size()) reader.damaged(fmt::format("photon {} is not valid", i));
+  // Searches must not find what is not there.
+  for (size_t i = photons.size(); i < buckets.bucket_count() * KdBuckets::bucket_size; ++i)
+    if (!buckets.removed(uint32_t(i))) reader.damaged("there is something behind its last photon");
+}
+
+MapReport get_report(BinaryReader& reader) {
+  MapReport report;
   report.rays = reader.get<uint64_t>();
   report.target_count = size_t(reader.get<uint64_t>());
   report.lights.resize(reader.get_count(bytes_per_light));
@@ -118,12 +149,43 @@ PhotonMap get_map(BinaryReader& reader, MapReport& report) {
     c.stored_flux = reader.get<double>();
     if (!std::isfinite(c.stored_flux)) reader.damaged("a light's flux is not finite");
   }
-  const uint64_t count = reader.get_count(bytes_per_photon);
-  if (count > KdTree<3, Vec3f, Photon>::max_size) reader.damaged("it holds too many photons");
-  auto positions = reader.get_array<Vec3f>(count);
-  auto photons = reader.get_array<Photon>(count);
-  check_photons(reader, positions, photons);
-  return {std::move(positions), std::move(photons)};
+  return report;
+}
+
+/// What the head tells of a map.
+struct MapHead {
+  explicit MapHead(BinaryReader& reader)
+      : report(get_report(reader)),
+        count(size_t(reader.get_count(bytes_per_photon))),
+        mean_flux(reader.get<float>()) {
+    if (count > KdTree<3, Vec3f, Photon>::max_size) reader.damaged("it holds too many photons");
+    if (!std::isfinite(mean_flux) || mean_flux < 0) reader.damaged("a mean flux is not valid");
+  }
+  MapReport report;
+  size_t count;
+  float mean_flux;
+};
+
+using MappedBytes = std::shared_ptr<const std::span<const uint8_t>>;
+
+/// Goes on behind the map.
+PhotonMap get_map(BinaryReader& reader, const MapHead& head, const MappedBytes& file) {
+  const uint64_t begin = reader.position();
+  reader.skip_to(end_of(begin, head.count));
+  const auto items = [&]<typename Item>(TreePart part, const Item*) {
+    const uint8_t* const first = file->data() + begin_of(part, begin, head.count);
+    return KeptArray<Item>({reinterpret_cast<const Item*>(first), item_count(part, head.count)},
+                           file);
+  };
+  KdBuckets buckets = KdBuckets::of(
+      head.count, items(TreePart::buckets, static_cast<const KdBuckets::Bucket*>(nullptr)),
+      items(TreePart::nodes, static_cast<const KdBuckets::Node*>(nullptr)));
+  KeptArray<Photon> photons = items(TreePart::photons, static_cast<const Photon*>(nullptr));
+  check_photons(reader, buckets, photons.all());
+  return {SidedTree<Photon>(
+              {std::move(buckets), std::move(photons)},
+              PhotonSides(items(TreePart::sides, static_cast<const PhotonSides::Block*>(nullptr)))),
+          head.mean_flux};
 }
 
 void put_fingerprint(BinaryWriter& writer, const SceneFingerprint& fingerprint) {
@@ -140,18 +202,57 @@ SceneFingerprint get_fingerprint(BinaryReader& reader) {
   return fingerprint;
 }
 
+void put_map(PhotonFileWriter& writer, size_t index, const PhotonMap& map) {
+  const KdBuckets& buckets = map.tree().buckets();
+  writer.put(index, TreePart::buckets, 0, bytes_in(buckets.buckets()));
+  writer.put(index, TreePart::nodes, 0, bytes_in(buckets.nodes()));
+  writer.put(index, TreePart::photons, 0, bytes_in(map.tree().data()));
+  writer.put(index, TreePart::sides, 0, bytes_in(map.sides().blocks()));
+  writer.set_mean_flux(index, map.mean_flux());
+}
+
 }  // namespace
 
-void write_photon_file(const std::string& path, const StoredPhotons& photons) {
+PhotonFileWriter::PhotonFileWriter(const std::string& path, const StoredPhotons& photons,
+                                   const std::array<size_t, 2>& counts)
+    : file_(path), photons_(photons), counts_(counts) {
+  begins_[0] = head().size();
+  begins_[1] = end_of(begins_[0], counts_[0]);
+}
+
+std::vector<uint8_t> PhotonFileWriter::head() const {
   BinaryWriter writer(photon_map_kind);
-  writer.put_text(photons.scene);
-  put_fingerprint(writer, photons.fingerprint);
-  writer.put(photons.seed);
-  put_wavelengths(writer, photons.wavelengths);
-  put_settings(writer, photons.settings);
-  put_map(writer, photons.maps.global, photons.maps.global_report);
-  put_map(writer, photons.maps.caustic, photons.maps.caustic_report);
-  writer.write_to(path);
+  writer.put_text(photons_.scene);
+  put_fingerprint(writer, photons_.fingerprint);
+  writer.put(photons_.seed);
+  put_wavelengths(writer, photons_.wavelengths);
+  put_settings(writer, photons_.settings);
+  const std::array reports{&photons_.maps.global_report, &photons_.maps.caustic_report};
+  for (size_t i = 0; i < reports.size(); ++i) {
+    put_report(writer, *reports[i]);
+    writer.put(uint64_t(counts_[i]));
+    writer.put(mean_fluxes_[i]);
+  }
+  return {writer.bytes().begin(), writer.bytes().end()};
+}
+
+void PhotonFileWriter::put(size_t map, TreePart part, uint64_t first,
+                           std::span<const uint8_t> items) {
+  file_.write(begin_of(part, begins_[map], counts_[map]) + first * item_bytes(part), items);
+}
+
+void PhotonFileWriter::finish() {
+  file_.write(0, head());
+  add_checksum(file_, end_of(begins_[1], counts_[1]));
+  file_.finish();
+}
+
+void write_photon_file(const std::string& path, const StoredPhotons& photons) {
+  const PhotonMaps& maps = photons.maps;
+  PhotonFileWriter writer(path, photons, {maps.global.size(), maps.caustic.size()});
+  put_map(writer, 0, maps.global);
+  put_map(writer, 1, maps.caustic);
+  writer.finish();
 }
 
 StoredPhotons read_photon_file(const std::string& path) {
@@ -162,11 +263,15 @@ StoredPhotons read_photon_file(const std::string& path) {
   photons.seed = reader.get<uint64_t>();
   photons.wavelengths = get_wavelengths(reader);
   photons.settings = get_settings(reader);
-  photons.maps.global = get_map(reader, photons.maps.global_report);
-  photons.maps.caustic = get_map(reader, photons.maps.caustic_report);
-  reader.expect_end();
-  if (photons.maps.global_report.lights.size() != photons.maps.caustic_report.lights.size())
+  const MapHead global(reader), caustic(reader);
+  if (global.report.lights.size() != caustic.report.lights.size())
     reader.damaged("its maps differ in the number of lights");
+  const MappedBytes file = reader.mapped();
+  photons.maps.global = get_map(reader, global, file);
+  photons.maps.caustic = get_map(reader, caustic, file);
+  photons.maps.global_report = global.report;
+  photons.maps.caustic_report = caustic.report;
+  reader.expect_end();
   return photons;
 }
 

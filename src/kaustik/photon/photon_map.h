@@ -54,6 +54,9 @@ class PhotonMap {
   /// Where `stop` is requested the map is left empty.
   PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons,
             const std::stop_token& stop = {});
+  /// A map that was built before, of so large a mean_flux().
+  PhotonMap(SidedTree<Photon> tree, float mean_flux)
+      : tree_(std::move(tree)), mean_flux_(mean_flux) {}
 
   size_t size() const { return tree_.size(); }
   bool empty() const { return tree_.empty(); }
@@ -61,6 +64,7 @@ class PhotonMap {
   /// Mean over photons of the largest lane of flux, W.
   float mean_flux() const { return mean_flux_; }
   const KdTree<3, Vec3f, Photon>& tree() const { return tree_.tree(); }
+  const PhotonSides& sides() const { return tree_.sides(); }
   /// See SidedTree.
   float typical_radius(int neighbors, float quantile) const {
     return tree_.typical_radius(neighbors, quantile);

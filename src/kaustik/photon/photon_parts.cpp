@@ -3,49 +3,62 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
-#include <numeric>
+#include <array>
 #include <tuple>
+#include <utility>
+
+#include "kaustik/photon/photon_tree_builder.h"
 
 namespace kaustik {
 namespace {
 
-struct Photons {
-  std::vector<Vec3f> positions;
-  std::vector<Photon> photons;
-
-  void append(const PhotonMap& map) {
-    for (uint32_t i = 0; i < map.size(); ++i) {
-      positions.push_back(map.tree().key(i));
-      photons.push_back(map.tree().data(i));
-    }
+PhotonBounds bounds_of(const PhotonMap& map) {
+  PhotonBounds bounds;
+  if (map.empty()) return bounds;
+  // The last node is above all others.
+  const KdBuckets::Node& top = map.tree().buckets().nodes().back();
+  for (int axis = 0; axis < 3; ++axis) {
+    bounds.lower[axis] = *std::ranges::min_element(top.lower[axis]);
+    bounds.upper[axis] = *std::ranges::max_element(top.upper[axis]);
   }
-  bool before(uint32_t a, uint32_t b) const {
-    const Vec3f &p = positions[a], &q = positions[b];
-    const auto left = std::tie(p.x, p.y, p.z), right = std::tie(q.x, q.y, q.z);
-    if (left != right) return left < right;
-    return std::memcmp(&photons[a], &photons[b], sizeof(Photon)) < 0;
-  }
-  PhotonMap sorted_map() const {
-    std::vector<uint32_t> order(photons.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [this](uint32_t a, uint32_t b) { return before(a, b); });
-    Photons sorted;
-    sorted.positions.reserve(order.size());
-    sorted.photons.reserve(order.size());
-    for (const uint32_t i : order) {
-      sorted.positions.push_back(positions[i]);
-      sorted.photons.push_back(photons[i]);
-    }
-    return {std::move(sorted.positions), std::move(sorted.photons)};
-  }
-};
-
-PhotonMap sorted(const PhotonMap& map) {
-  Photons photons;
-  photons.append(map);
-  return photons.sorted_map();
+  return bounds;
 }
+
+PhotonBounds bounds_of(const std::vector<const PhotonMap*>& maps) {
+  PhotonBounds bounds;
+  for (const PhotonMap* map : maps) bounds.add(bounds_of(*map));
+  return bounds;
+}
+
+size_t count_of(const std::vector<const PhotonMap*>& maps) {
+  size_t count = 0;
+  for (const PhotonMap* map : maps) count += map->size();
+  return count;
+}
+
+/// Puts the photons of all in order.
+class GatheredPhotons {
+ public:
+  /// `added` is called with how many there are so far.
+  GatheredPhotons(const std::vector<const PhotonMap*>& maps, const SortMemory& memory,
+                  const std::function<void(size_t)>& added = {})
+      : sort_(bounds_of(maps), memory), count_(count_of(maps)) {
+    size_t count = 0;
+    for (const PhotonMap* map : maps)
+      for (uint32_t i = 0; i < map->size(); ++i) {
+        sort_.add({map->tree().key(i), map->tree().data(i)});
+        if (++count % told_every == 0 && added) added(count);
+      }
+  }
+  /// Both can be asked for once.
+  PhotonMap map() { return BuiltPhotonTree(sort_, count_).map(); }
+  float build(const TakeItems& take) { return build_photon_tree(sort_, count_, take); }
+
+ private:
+  static constexpr size_t told_every = size_t{1} << 16;
+  PhotonSort sort_;
+  size_t count_;
+};
 
 void add_report(const MapReport& part, MapReport& whole) {
   whole.rays += part.rays;
@@ -88,35 +101,72 @@ void check(std::span<const StoredPhotons> parts) {
              fmt::format("trace part {} of {}, and give all", i + 1, count));
 }
 
+/// Which of the two maps.
+using MapOf = PhotonMap PhotonMaps::*;
+constexpr std::array<MapOf, 2> both_maps{&PhotonMaps::global, &PhotonMaps::caustic};
+
+/// All of a whole pass but its maps, and its parts in the order of their numbers, so that sums of
+/// flux are the same however they are given.
+struct Whole {
+  explicit Whole(std::span<const StoredPhotons> parts) : in_order(parts.size()) {
+    check(parts);
+    for (const StoredPhotons& part : parts) in_order[part.settings.part.index] = &part;
+    const StoredPhotons& first = parts.front();
+    photons = {first.scene, first.fingerprint, first.seed, first.wavelengths, first.settings, {}};
+    photons.settings.part = {};
+    for (const StoredPhotons* part : in_order) {
+      add_report(part->maps.global_report, photons.maps.global_report);
+      add_report(part->maps.caustic_report, photons.maps.caustic_report);
+    }
+  }
+  std::vector<const PhotonMap*> maps(MapOf of) const {
+    std::vector<const PhotonMap*> all;
+    for (const StoredPhotons* part : in_order) all.push_back(&(part->maps.*of));
+    return all;
+  }
+
+  std::vector<const StoredPhotons*> in_order;
+  StoredPhotons photons;
+};
+
 }  // namespace
 
 void sort_photons(PhotonMaps& maps) {
-  maps.global = sorted(maps.global);
-  maps.caustic = sorted(maps.caustic);
+  for (const MapOf of : both_maps) maps.*of = GatheredPhotons({&(maps.*of)}, {}).map();
 }
 
 StoredPhotons merged_photons(std::span<const StoredPhotons> parts) {
-  check(parts);
-  // In the order of their numbers, so that the sums of flux are the same however they are given.
-  std::vector<const StoredPhotons*> in_order(parts.size());
-  for (const StoredPhotons& part : parts) in_order[part.settings.part.index] = &part;
-  StoredPhotons whole;
-  whole.scene = parts.front().scene;
-  whole.fingerprint = parts.front().fingerprint;
-  whole.seed = parts.front().seed;
-  whole.wavelengths = parts.front().wavelengths;
-  whole.settings = parts.front().settings;
-  whole.settings.part = {};
-  Photons global, caustic;
-  for (const StoredPhotons* part : in_order) {
-    global.append(part->maps.global);
-    caustic.append(part->maps.caustic);
-    add_report(part->maps.global_report, whole.maps.global_report);
-    add_report(part->maps.caustic_report, whole.maps.caustic_report);
+  Whole whole(parts);
+  for (const MapOf of : both_maps)
+    whole.photons.maps.*of = GatheredPhotons(whole.maps(of), {}).map();
+  return std::move(whole.photons);
+}
+
+PhotonCounts write_merged_photons(const std::string& path, std::span<const StoredPhotons> parts,
+                                  const ProgressFunction& progress, size_t photons_in_memory) {
+  const Whole whole(parts);
+  PhotonCounts counts;
+  for (size_t i = 0; i < both_maps.size(); ++i) counts[i] = count_of(whole.maps(both_maps[i]));
+  // A photon is read and put in order, then it comes into the tree, then into the checksum.
+  const auto steps = double(std::max<size_t>(3 * (counts[0] + counts[1]), 1));
+  size_t before = 0;
+  const auto tell = [&](size_t more) {
+    if (progress) progress(double(before + more) / steps);
+  };
+  PhotonFileWriter writer(path, whole.photons, counts);
+  for (size_t i = 0; i < both_maps.size(); ++i) {
+    GatheredPhotons photons(whole.maps(both_maps[i]), {photons_in_memory, path}, tell);
+    before += counts[i];
+    const float mean_flux =
+        photons.build([&](TreePart part, uint64_t first, std::span<const uint8_t> items) {
+          writer.put(i, part, first, items);
+          if (part == TreePart::photons) tell(size_t(first));
+        });
+    before += counts[i];
+    writer.set_mean_flux(i, mean_flux);
   }
-  whole.maps.global = global.sorted_map();
-  whole.maps.caustic = caustic.sorted_map();
-  return whole;
+  writer.finish();
+  return counts;
 }
 
 }  // namespace kaustik

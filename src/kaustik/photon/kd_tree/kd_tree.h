@@ -95,6 +95,12 @@ class KdTree {
   };
 
   explicit KdTree(Metric metric = {}) : metric_(std::move(metric)) {}
+  /// A tree that was optimised before, with the data of its points in its order.
+  KdTree(KdBuckets buckets, KeptArray<Data> data) requires has_buckets
+      : buckets_(std::move(buckets)),
+        data_(std::move(data)) {
+    assert(buckets_.size() == data_.size());
+  }
 
   /// Replaces all items, and optimises: the quickest way to fill a tree. data[i] belongs to
   /// keys[i]. Where `stop` is requested the tree is left empty.
@@ -113,16 +119,16 @@ class KdTree {
   Key key(uint32_t index) const;
   const Data& data(uint32_t index) const { return data_[index]; }
   /// May be changed as long as no search runs.
-  Data& data(uint32_t index) { return data_[index]; }
+  Data& data(uint32_t index) { return data_.own()[index]; }
   /// Where vector code looks at many items at once. All of them are there after assign() or
   /// optimise().
   const KdBuckets& buckets() const requires has_buckets { return buckets_; }
   /// All data by index, removed items included (there are none after optimise()).
-  std::span<const Data> data() const { return data_; }
+  std::span<const Data> data() const { return data_.all(); }
   bool removed(uint32_t index) const;
-  /// Memory of keys, data and structure; not of anything that Data points to.
+  /// Memory of keys, data and structure, of its own; not of anything that Data points to.
   size_t size_in_bytes() const {
-    return buckets_.size_in_bytes() + forest_.size_in_bytes() + data_.capacity() * sizeof(Data);
+    return buckets_.size_in_bytes() + forest_.size_in_bytes() + data_.own_bytes();
   }
 
   /// All items with this key.
@@ -152,7 +158,7 @@ class KdTree {
   Metric metric_;
   KdBuckets buckets_;                  ///< items 0 … buckets_.size() - 1
   KdForest<Dim, Key, Metric> forest_;  ///< the items after them
-  std::vector<Data> data_;
+  KeptArray<Data> data_;
   size_t removed_ = 0;
 };
 

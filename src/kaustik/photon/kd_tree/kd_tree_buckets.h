@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "kaustik/base/kept_array.h"
 #include "kaustik/base/vec.h"
 #include "kaustik/photon/kd_tree/kd_tree_neighbors.h"
 
@@ -71,6 +72,17 @@ class KdBuckets {
   /// positions[order[i]]. Where `stop` is requested the tree is left empty.
   std::vector<uint32_t> build(std::span<const Vec3f> positions, const std::stop_token& stop = {});
   void clear() { *this = {}; }
+  /// A tree of so many points that was built before: its buckets, and the nodes of all levels, the
+  /// lowest first.
+  static KdBuckets of(size_t size, KeptArray<Bucket> buckets, KeptArray<Node> nodes);
+  /// Of a tree of so many points.
+  static constexpr size_t bucket_count_of(size_t points) {
+    return (points + bucket_size - 1) / bucket_size;
+  }
+  /// Where the nodes of each level begin in a tree of so many points, and how many there are.
+  static std::vector<size_t> level_begins(size_t points);
+  /// The node above so many others, fan_out at most.
+  static Node node_above(std::span<const Node> children);
 
   size_t size() const { return size_; }
   Vec3f position(uint32_t index) const {
@@ -94,20 +106,22 @@ class KdBuckets {
   /// Places of a bucket that hold no point are at infinity.
   const Bucket& bucket(uint32_t number) const { return buckets_[number]; }
   size_t bucket_count() const { return buckets_.size(); }
+  std::span<const Bucket> buckets() const { return buckets_.all(); }
+  /// Of all levels, the lowest first.
+  std::span<const Node> nodes() const { return nodes_.all(); }
   /// All points in the closed box; distances are 0.
   void inside(const Vec3f& lower, const Vec3f& upper, const Sink& sink) const;
 
-  size_t size_in_bytes() const {
-    return buckets_.capacity() * sizeof(Bucket) + nodes_.capacity() * sizeof(Node);
-  }
+  /// Of memory of its own.
+  size_t size_in_bytes() const { return buckets_.own_bytes() + nodes_.own_bytes(); }
 
  private:
   View view() const;
   void fill_nodes();
 
-  std::vector<Bucket> buckets_;
-  std::vector<Node> nodes_;  ///< all levels, level 0 first
-  std::vector<uint32_t> level_begin_;
+  KeptArray<Bucket> buckets_;
+  KeptArray<Node> nodes_;            ///< all levels, level 0 first
+  std::vector<size_t> level_begin_;  ///< and their end
   size_t size_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <memory>
 
 #include "kaustik/base/parallel.h"
@@ -176,48 +177,74 @@ std::vector<uint32_t> KdBuckets::build(std::span<const Vec3f> positions,
   }
 
   std::vector<uint32_t> order(size_);
-  buckets_.resize((size_ + bucket_size - 1) / bucket_size);
+  std::vector<Bucket>& buckets = buckets_.own();
+  buckets.resize(bucket_count_of(size_));
   parallel_blocks(size_, parallel_block, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) order[i] = points[i].source;
     for (size_t i = begin; i < end; i += bucket_size)
-      fill_bucket(&points[i], std::min<size_t>(bucket_size, end - i), buckets_[i / bucket_size]);
+      fill_bucket(&points[i], std::min<size_t>(bucket_size, end - i), buckets[i / bucket_size]);
   });
   fill_nodes();
   return order;
 }
 
-void KdBuckets::fill_nodes() {
-  size_t total = 0;
-  for (size_t children = buckets_.size(); children > 0 && (total == 0 || children > 1);) {
+std::vector<size_t> KdBuckets::level_begins(size_t points) {
+  std::vector<size_t> begins{0};
+  for (size_t children = bucket_count_of(points);
+       children > 0 && (begins.back() == 0 || children > 1);) {
     children = (children + fan_out - 1) / fan_out;
-    level_begin_.push_back(uint32_t(total));
-    total += children;
+    begins.push_back(begins.back() + children);
   }
-  nodes_.assign(total, empty_node());
-  const size_t leaves = level_begin_.size() > 1 ? level_begin_[1] : total;
+  return begins;
+}
+
+KdBuckets::Node KdBuckets::node_above(std::span<const Node> children) {
+  Node node = empty_node();
+  for (size_t child = 0; child < children.size(); ++child)
+    bound_node(children[child], uint32_t(child), node);
+  return node;
+}
+
+KdBuckets KdBuckets::of(size_t size, KeptArray<Bucket> buckets, KeptArray<Node> nodes) {
+  KdBuckets tree;
+  tree.size_ = size;
+  tree.buckets_ = std::move(buckets);
+  tree.nodes_ = std::move(nodes);
+  tree.level_begin_ = level_begins(size);
+  assert(tree.buckets_.size() == bucket_count_of(size));
+  assert(tree.nodes_.size() == tree.level_begin_.back());
+  return tree;
+}
+
+void KdBuckets::fill_nodes() {
+  level_begin_ = level_begins(size_);
+  std::vector<Node>& nodes = nodes_.own();
+  nodes.assign(level_begin_.back(), empty_node());
+  const size_t leaves = level_begin_.size() > 1 ? level_begin_[1] : 0;
   parallel_blocks(leaves, parallel_block / bucket_size, [&](size_t begin, size_t end, size_t) {
     for (size_t bucket = begin * fan_out; bucket < std::min(end * fan_out, buckets_.size());
          ++bucket) {
       const size_t count = std::min<size_t>(bucket_size, size_ - bucket * bucket_size);
-      bound_bucket(buckets_[bucket], count, bucket % fan_out, nodes_[bucket / fan_out]);
+      bound_bucket(buckets_[bucket], count, bucket % fan_out, nodes[bucket / fan_out]);
     }
   });
-  for (size_t level = 1; level < level_begin_.size(); ++level) {
-    const size_t below = level_begin_[level - 1];
-    for (size_t i = below; i < level_begin_[level]; ++i)
-      bound_node(nodes_[i], uint32_t(i - below) % fan_out,
-                 nodes_[level_begin_[level] + (i - below) / fan_out]);
+  for (size_t level = 1; level + 1 < level_begin_.size(); ++level) {
+    const std::span<const Node> below(nodes.data() + level_begin_[level - 1],
+                                      level_begin_[level] - level_begin_[level - 1]);
+    for (size_t i = level_begin_[level], first = 0; i < level_begin_[level + 1];
+         ++i, first += fan_out)
+      nodes[i] = node_above(below.subspan(first, std::min<size_t>(fan_out, below.size() - first)));
   }
 }
 
 void KdBuckets::remove(uint32_t index) {
-  Bucket& bucket = buckets_[index / bucket_size];
+  Bucket& bucket = buckets_.own()[index / bucket_size];
   const uint32_t lane = index % bucket_size;
   bucket.x[lane] = bucket.y[lane] = bucket.z[lane] = infinity;
 }
 
 KdBuckets::View KdBuckets::view() const {
-  View view{buckets_.data(), {}, int(level_begin_.size())};
+  View view{buckets_.data(), {}, std::max(int(level_begin_.size()) - 1, 0)};
   for (int level = 0; level < view.level_count; ++level)
     view.levels[level] = nodes_.data() + level_begin_[size_t(level)];
   return view;

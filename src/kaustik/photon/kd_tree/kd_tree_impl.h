@@ -51,10 +51,10 @@ template <int Dim, typename Key, typename Data, typename Metric>
 void KdTree<Dim, Key, Data, Metric>::insert(const Key& key, Data data) {
   check(key);
   check_size(data_.size() + 1);
-  data_.push_back(std::move(data));
+  data_.own().push_back(std::move(data));
   forest_.insert(key, [this](size_t begin, const std::vector<uint32_t>& order) {
     std::vector<Data> moved(order.size());
-    const auto first = data_.begin() + std::ptrdiff_t(forest_begin() + begin);
+    const auto first = data_.own().begin() + std::ptrdiff_t(forest_begin() + begin);
     for (size_t i = 0; i < order.size(); ++i) moved[i] = std::move(first[order[i]]);
     std::move(moved.begin(), moved.end(), first);
   });
@@ -103,7 +103,7 @@ void KdTree<Dim, Key, Data, Metric>::optimise() {
   for (uint32_t i = 0; i < data_.size(); ++i) {
     if (removed(i)) continue;
     keys.push_back(key(i));
-    data.push_back(std::move(data_[i]));
+    data.push_back(std::move(data_.own()[i]));
   }
   build(std::move(keys), std::move(data), {});
 }
@@ -117,9 +117,10 @@ void KdTree<Dim, Key, Data, Metric>::build(std::vector<Key> keys, std::vector<Da
     order = buckets_.build(keys, stop);
   else
     order = forest_.build(std::move(keys));
-  data_ = std::vector<Data>(order.size());
+  std::vector<Data>& kept = data_.own();
+  kept = std::vector<Data>(order.size());
   parallel_blocks(order.size(), 4096, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) data_[i] = std::move(data[order[i]]);
+    for (size_t i = begin; i < end; ++i) kept[i] = std::move(data[order[i]]);
   });
   removed_ = 0;
 }

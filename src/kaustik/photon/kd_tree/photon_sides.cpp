@@ -32,8 +32,9 @@ uint32_t sign_bits(const Bytes& bytes) {
 
 void PhotonSides::add(int8_t x, int8_t y, int8_t z, bool on_front) {
   const uint32_t lane = count_++ % block_size;
-  if (lane == 0) blocks_.emplace_back();
-  Block& block = blocks_.back();
+  std::vector<Block>& blocks = blocks_.own();
+  if (lane == 0) blocks.emplace_back();
+  Block& block = blocks.back();
   block.x[lane] = x;
   block.y[lane] = y;
   block.z[lane] = z;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kaustik/base/kept_array.h"
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
@@ -10,11 +11,26 @@ namespace kaustik {
 /// told apart at once: the one answer to "does this photon count here".
 class PhotonSides {
  public:
-  void reserve(size_t count) { blocks_.reserve((count + block_size - 1) / block_size); }
+  static constexpr uint32_t block_size = 16;
+  struct Block {
+    int8_t x[block_size], y[block_size], z[block_size];
+    uint16_t front = 0;
+  };
+  static constexpr size_t block_count(size_t photons) {
+    return (photons + block_size - 1) / block_size;
+  }
+
+  PhotonSides() = default;
+  /// Blocks that another had, whose last one need not be full: nothing can be added.
+  explicit PhotonSides(KeptArray<Block> blocks) : blocks_(std::move(blocks)) {}
+
+  void reserve(size_t count) { blocks_.own().reserve(block_count(count)); }
   /// The next photon's unit normal on the side of arrival, in parts of 127, and whether that is the
   /// side of the surface's own normal.
   void add(int8_t x, int8_t y, int8_t z, bool on_front);
-  size_t size_in_bytes() const { return blocks_.capacity() * sizeof(Block); }
+  /// Of memory of its own.
+  size_t size_in_bytes() const { return blocks_.own_bytes(); }
+  std::span<const Block> blocks() const { return blocks_.all(); }
 
   /// What a query accepts: photons whose side lies in the half space of a geometric normal, or
   /// (`both_sides`, where light passes through) photons whose surface's own normal does.
@@ -36,12 +52,7 @@ class PhotonSides {
   }
 
  private:
-  static constexpr uint32_t block_size = 16;
-  struct Block {
-    int8_t x[block_size], y[block_size], z[block_size];
-    uint16_t front = 0;
-  };
-  std::vector<Block> blocks_;
+  KeptArray<Block> blocks_;
   uint32_t count_ = 0;
 };
 

@@ -26,7 +26,11 @@ class SidedTree {
       sides_.add(d.side.x(), d.side.y(), d.side.z(), d.on_front != 0);
   }
 
+  /// A tree that was built before, and the sides of its items in its order.
+  SidedTree(Tree tree, PhotonSides sides) : tree_(std::move(tree)), sides_(std::move(sides)) {}
+
   const Tree& tree() const { return tree_; }
+  const PhotonSides& sides() const { return sides_; }
   size_t size() const { return tree_.size(); }
   bool empty() const { return tree_.empty(); }
   size_t size_in_bytes() const { return tree_.size_in_bytes() + sides_.size_in_bytes(); }
