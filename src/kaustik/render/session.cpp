@@ -199,9 +199,11 @@ SessionReport Session::run(std::stop_token stop,
   if (is_follower() || (is_pass_abandoned_ && report_.cancelled())) {
     report_.mean_error = report_.picture_error = std::numeric_limits<double>::infinity();
   } else {
-    report_.mean_error = film_.mean_error();
-    // Of regions that still wait the last passes may not be in it.
-    report_.picture_error = next_region() ? film_.picture_error() : monitor.error();
+    with_threads(settings_.threads, [&] {
+      report_.mean_error = film_.mean_error();
+      // Of regions that still wait the last passes may not be in it.
+      report_.picture_error = next_region() ? film_.picture_error() : monitor.error();
+    });
   }
   report_.rays = monitor.rays;
   report_.photons = monitor.photons;
