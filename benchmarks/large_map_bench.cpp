@@ -170,9 +170,8 @@ void measure_merging(const std::vector<std::string>& files, const std::string& w
 }
 
 /// Seconds of a processor; places go through a map as the rows of a picture do.
-double gather_seconds(const PhotonMap& map, int rows) {
-  EstimateSettings estimate;
-  estimate.neighbors = 50;
+double gather_seconds(const PhotonMap& map, const EstimateSettings& estimate) {
+  constexpr int rows = 100;
   Scratch scratch;
   double sum = 0;
   const double begin = processor_seconds();
@@ -187,9 +186,13 @@ double gather_seconds(const PhotonMap& map, int rows) {
 }
 
 double best_gather_seconds(const PhotonMap& map) {
-  gather_seconds(map, 100);  // warm
-  double best = gather_seconds(map, 100);
-  for (int i = 0; i < 4; ++i) best = std::min(best, gather_seconds(map, 100));
+  EstimateSettings estimate;
+  estimate.neighbors = 50;
+  // As integrators have it for stored maps.
+  estimate.maximum_radius = 2 * map.typical_radius(estimate.neighbors, 0.95f);
+  gather_seconds(map, estimate);  // brings it into memory
+  double best = gather_seconds(map, estimate);
+  for (int i = 0; i < 4; ++i) best = std::min(best, gather_seconds(map, estimate));
   return best;
 }
 

@@ -114,7 +114,7 @@ class BinaryReader {
   [[noreturn]] void damaged(const std::string& why) const;
   const std::string& path() const { return path_; }
   /// Of a file on the disk: where the next byte to be read lies in it.
-  uint64_t position() const { return unloaded_begin_ - rest_.size(); }
+  uint64_t position() const { return size_ - sizeof(uint64_t) - unloaded_ - rest_.size(); }
   /// Goes on from there, which is not before position(). Throws if the file ends before.
   void skip_to(uint64_t position);
   /// All of a file on the disk, as InputFile::mapped().

@@ -218,6 +218,8 @@ PhotonFileWriter::PhotonFileWriter(const std::string& path, const StoredPhotons&
     : file_(path), photons_(photons), counts_(counts) {
   begins_[0] = head().size();
   begins_[1] = end_of(begins_[0], counts_[0]);
+  // As long as it will be: what lies between arrays are zeros.
+  file_.write(end_of(begins_[1], counts_[1]) - 1, std::array<uint8_t, 1>{});
 }
 
 std::vector<uint8_t> PhotonFileWriter::head() const {

@@ -65,10 +65,19 @@ class SidedTree {
     if (empty() || neighbors <= 0) return infinity;
     std::vector<float> radii;
     Neighbors found;
+    float reach = 0;
     for (size_t i = 0; i < probes; ++i) {
       const auto index = uint32_t(i * size() / probes);
-      nearest(tree_.key(index), tree_.data(index).side.unpack(), false, neighbors, infinity, found);
+      const Vec3f side = tree_.data(index).side.unpack();
+      // Without a limit a search may come through much that lies on other sides.
+      constexpr int most_tries = 8;
+      for (int tries = 1;; ++tries, reach *= 2) {
+        if (tries == most_tries || !(reach > 0)) reach = infinity;
+        nearest(tree_.key(index), side, false, neighbors, reach, found);
+        if (found.size() == size_t(neighbors) || reach == infinity) break;
+      }
       radii.push_back(std::sqrt(found.farthest_sq()));
+      reach = 2 * radii.back();
     }
     const auto at = radii.begin() + std::ptrdiff_t(float(radii.size()) * quantile);
     std::nth_element(radii.begin(), at, radii.end());
