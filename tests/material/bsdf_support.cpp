@@ -220,6 +220,8 @@ std::vector<BsdfInstance> make_instances() {
        make_bsdf("roughdielectric", {property("int_ior", "water")}, {},
                  {{"alpha", checks(0.2, 0.02)}, {"specular_transmittance", checks(0.7, 0.1)}})},
       {"pane", make_bsdf("thindielectric", {property("specular_transmittance", Rgb{0.4, 0.9, 1})})},
+      {"soap_film", make_bsdf("thindielectric", {property("int_ior", std::string("water")),
+                                                 property("thickness", 350.0)})},
       {"plastic", plastic({0.5, 0.5, 0.5}, false)},
       {"plastic_nonlinear", plastic({0.9, 0.2, 0.6}, true)},
       {"rough_plastic_beckmann_0.05", rough_plastic("beckmann", 0.05)},
