@@ -45,6 +45,7 @@ SCENES = {
     "metal_ring": (SQUARE, "2m", "gold, a small lamp, the cardioid inside"),
     "cornell_box": (SQUARE, "1m", "the box as it was measured"),
     "prism": ("-D size=1280 -D height=800", "3m", "white light through flint glass"),
+    "soap_bubbles": ("-D size=1280 -D height=800", "3m", "films of soap by a window"),
     "cornell_spheres": (SQUARE, "2m", "mirror and glass in the box"),
     "pbrt": (FILE_WIDE, "2m", "a scene of pbrt: tea, flint glass, gold, a translucent pebble"),
     "gltf": (FILE_WIDE, "2m", "a scene in glTF: crystal, stones, gold, a spot lamp"),

@@ -36,6 +36,9 @@ static_assert(std::is_trivially_copyable_v<Photon> && sizeof(Vec3f) == 12);
 static_assert(sizeof(Photon) == 32 && sizeof(KdBuckets::Bucket) == 192 &&
               sizeof(KdBuckets::Node) == 192 && sizeof(PhotonSides::Block) == 50);
 
+/// In the order in which they lie in the file.
+constexpr std::array tree_parts{TreePart::buckets, TreePart::nodes, TreePart::photons,
+                                TreePart::sides};
 /// At whose multiples arrays begin.
 constexpr uint64_t array_alignment = 64;
 uint64_t aligned(uint64_t place) {

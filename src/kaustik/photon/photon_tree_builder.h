@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -12,8 +11,6 @@ namespace kaustik {
 
 /// The arrays that a tree of photons consists of.
 enum class TreePart { buckets, nodes, photons, sides };
-inline constexpr std::array tree_parts{TreePart::buckets, TreePart::nodes, TreePart::photons,
-                                       TreePart::sides};
 /// Bytes of an item, which no item leaves unset.
 size_t item_bytes(TreePart part);
 /// Items in a tree of so many photons.
