@@ -9,7 +9,8 @@
 // for them.
 //
 // `large_map_bench [PHOTONS] [FOLDER] [in-memory|no]`: 20 million, in parts of 4 million each; in
-// the folder of temporary files; "no" leaves out the map in memory, which takes 110 bytes a photon to build.
+// the folder of temporary files; "no" leaves out the map in memory, which takes 110 bytes a photon
+// to build.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
