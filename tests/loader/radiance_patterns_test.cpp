@@ -1,4 +1,6 @@
 // Functions, tables and pictures on the surfaces of Radiance's scenes.
+#include <sstream>
+
 #include "kaustik/loader/radiance/cal_evaluator.h"
 #include "kaustik/loader/radiance/cal_functions.h"
 #include "kaustik/loader/radiance/data_table.h"
@@ -122,8 +124,24 @@ TEST(RadiancePatterns, WhatDependsOnTheViewCountsByItsMean) {
   EXPECT_TRUE(tells(scene, DeviationKind::approximated, "brightfunc 'f'", "mean"));
 }
 
-// As ies2rad writes them: an intensity of 100 cosθ straight down, through a disk of 0.1 m². So its
-// radiance is 1000 everywhere; one of 100 cos⁴θ has the mean 2 ∫ 1000 cos³ cosθ sinθ dθ = 400.
+bool shines(const Object& shape) {
+  return std::ranges::any_of(shape.children,
+                             [](const Child& child) { return child.object->family == "emitter"; });
+}
+
+/// The intensities in cd of a luminaire's planes, from straight down in steps of 2.5°.
+std::vector<double> candelas_of(const Object& luminaire, size_t planes) {
+  std::istringstream text(value<std::string>(luminaire, "profile"));
+  std::string line;
+  for (int i = 0; i < 4; ++i) std::getline(text, line);
+  std::vector<double> numbers;
+  for (double number; text >> number;) numbers.push_back(number);
+  EXPECT_EQ(numbers.size(), 73 + planes + 73 * planes);
+  return {numbers.begin() + std::ptrdiff_t(73 + planes), numbers.end()};
+}
+
+// As ies2rad writes them: an intensity of 100 cosθ straight down, or 100 cos⁴θ, through a disk of
+// 0.1 m², which itself is dark.
 TEST(RadiancePatterns, LampsByTheirIntensity) {
   TemporaryFolder folder;
   for (const int power : {1, 4}) {
@@ -136,11 +154,41 @@ TEST(RadiancePatterns, LampsByTheirIntensity) {
     const auto scene = load_radiance(
         folder.write("a.rad",
                      "void brightdata x 4 flatcorr x.dat source.cal src_theta 0 1 10\n"
-                     "x light l 0 0 3 1 1 1\nl ring r 0 0 8 0 0 0 0 0 -1 0 .178\n"));
-    const Object& emitter = nested(sole_object(scene, "shape"), "emitter");
-    const double expected = power == 1 ? 1000 : 400;
-    expect_colour(emitter, "radiance", expected, expected, expected, .003 * expected);
+                     "x light l 0 0 3 1 .5 1\nl ring r 0 0 8 0 0 3 0 0 -1 0 .178412\n"));
+    EXPECT_FALSE(shines(sole_object(scene, "shape")));
+    const Object& emitter = sole_object(scene, "emitter");
+    EXPECT_EQ(emitter.type, "goniometric");
+    expect_colour(emitter, "intensity", 1, .5, 1);
+    EXPECT_NEAR(value<Transform>(emitter, "to_world").vector(Vec3f(0, 0, 1)).z, -1, 1e-6);
+    const auto candelas = candelas_of(emitter, 1);
+    for (const int row : {0, 10, 20, 35}) {
+      const double expected = 179 * 100 * std::pow(std::cos(2.5 * row * pi_d / 180), power);
+      EXPECT_NEAR(candelas[size_t(row)], expected, 1e-3 * expected) << row;
+    }
+    EXPECT_EQ(candelas[40], 0);
+    EXPECT_TRUE(tells(scene, DeviationKind::approximated, "brightdata 'x'", "from a point"));
   }
+}
+
+// C 0 of the file is +x of the luminaire, C 90 is +y.
+TEST(RadiancePatterns, LuminairesKeepTheirAxes) {
+  const auto scene = with_material(
+      "void brightfunc f 2 if(-Dx-.5,8,if(-Dy-.5,4,1)) . 0 0\nf light m 0 0 3 1 1 1\n");
+  const Object& emitter = sole_object(scene, "emitter");
+  const auto candelas = candelas_of(emitter, 72);
+  const double one = 179 * std::sqrt(.5);  // of 1 m² at 135°
+  EXPECT_NEAR(candelas[54], 8 * one, .1);
+  EXPECT_NEAR(candelas[18 * 73 + 54], 4 * one, .1);
+  EXPECT_NEAR(candelas[36 * 73 + 54], one, .1);
+}
+
+// A tube is neither flat nor a sphere: it shines by its mean.
+TEST(RadiancePatterns, OtherLampsShineByTheirMean) {
+  const auto scene = parse_rad(
+      "void brightfunc f 2 Dz*Dz . 0 0\nf light l 0 0 3 1 1 1\n"
+      "l cylinder c 0 0 7 0 0 0 0 0 1 .1\n");
+  EXPECT_TRUE(shines(sole_object(scene, "shape")));
+  EXPECT_TRUE(tells(scene, DeviationKind::approximated, "brightfunc 'f'", "by its mean"));
 }
 
 TEST(RadiancePatterns, PicturesLieByTheirFunctions) {

@@ -49,6 +49,22 @@ TEST(GltfUnits, PointLampsAreInCandela) {
   expect_lux(seen(file_with(shines + R"(,"translation":[3,0,4])", lamp)), 800 * 0.8 / 25);
 }
 
+TEST(GltfUnits, LuminairesHaveTheCandelaOfTheirFile) {
+  // 800 cd within 90° of the node's −z.
+  const std::string profile =
+      "SUVTTkE6TE0tNjMtMjAwMgpUSUxUPU5PTkUKMSAtMSAxIDMgMSAxIDIgMCAwIDAKMSAxIDAKMCA4OSA5"
+      "MAowCjgwMCA4MDAgODAwCg==";
+  const std::string lamp =
+      "\"type\":\"point\"}]},\"EXT_lights_ies\":{\"lights\":[{"
+      "\"uri\":\"data:application/x-ies-lm-63;base64," +
+      profile + "\"";
+  const std::string luminaire =
+      R"("extensions":{"EXT_lights_ies":{"light":0,"multiplier":0.5}},"translation":[0,0,2])";
+  expect_lux(seen(file_with(luminaire, lamp)), 400 / 4.0);
+  // Turned by 180° about x.
+  expect_lux(seen(file_with(luminaire + R"(,"rotation":[1,0,0,0])", lamp)), 0);
+}
+
 TEST(GltfUnits, DirectionalLampsAreInLux) {
   const std::string lamp = R"("type":"directional","intensity":1000)";
   expect_lux(seen(file_with(shines, lamp)), 1000);

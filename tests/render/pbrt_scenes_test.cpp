@@ -152,16 +152,20 @@ TEST(PbrtTraced, PicturesForNumbersAreOpacityOrMeans) {
   expect_seen("\"colours.pfm\" \"bool invert\" true", 3 * .3);
 }
 
-TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
-  // In the square's middle diamond z is above 0: 5 there, 0 below.
+/// A picture of equal areas: in the square's middle diamond z is above 0: 5 there, 0 below.
+std::string half_of_all_directions() {
   constexpr int size = 64;
   std::vector<float> values;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
       values.push_back(
           std::fabs(2 * (x + .5) / size - 1) + std::fabs(2 * (y + .5) / size - 1) < 1 ? 5.f : 0.f);
+  return pfm(size, size, values);
+}
+
+TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
   const test::TemporaryFolder folder;
-  write(folder, "sky.pfm", pfm(size, size, values));
+  write(folder, "sky.pfm", half_of_all_directions());
   const std::string sky = "LightSource \"infinite\" \"string filename\" \"sky.pfm\"\n";
   EXPECT_NEAR(seen(sky, folder.path("")).mean(), 5, .02);
   EXPECT_NEAR(seen("Scale 1 1 -1 " + sky, folder.path("")).mean(), 0, 1e-6);
@@ -172,17 +176,32 @@ TEST(PbrtTraced, SkiesOfEqualAreaShineFromTheirHalf) {
   EXPECT_NEAR(lit.mean(), 2.5, .02 + 4 * lit.standard_error());
 }
 
+const std::string wall_at_5 =
+    "\nShape \"trianglemesh\" \"point3 P\" [-9 -9 5 -9 9 5 9 9 5 9 -9 5] "
+    "\"integer indices\" [0 1 2 0 2 3]";
+
 /// On a matt wall at z = 5, which faces the lamps, in its middle: E = π L / ρ.
 void expect_lux(const std::string& lamps, double expected, const std::string& folder = "") {
   constexpr double lux_of_radiance = std::numbers::pi / .5;
-  const RunningStatistics radiance =
-      seen(lamps +
-               "\nShape \"trianglemesh\" \"point3 P\" [-9 -9 5 -9 9 5 9 9 5 9 -9 5] "
-               "\"integer indices\" [0 1 2 0 2 3]",
-           folder, 64);
+  const RunningStatistics radiance = seen(lamps + wall_at_5, folder, 64);
   const double error = lux_of_radiance * radiance.standard_error();
   EXPECT_NEAR(lux_of_radiance * radiance.mean(), expected, 2e-3 * expected + 5 * error) << lamps;
   EXPECT_LT(error, .02 * expected) << lamps;
+}
+
+TEST(PbrtTraced, GoniometricLampsShineAsTheirPicture) {
+  const test::TemporaryFolder folder;
+  write(folder, "lamp.pfm", half_of_all_directions());
+  const std::string lamp =
+      "LightSource \"goniometric\" \"string filename\" \"lamp.pfm\" \"rgb I\" [3 3 3] ";
+  expect_lux(lamp + "\"float scale\" 2", 30. / 25, folder.path(""));
+  // Those pixels share the power: 1984 of 4096, for the diamond's own edge is dark.
+  const RunningStatistics seen_with_power =
+      seen(lamp + "\"float power\" 100" + wall_at_5, folder.path(""), 64);
+  const double intensity = 25 * seen_with_power.mean() * std::numbers::pi / .5;
+  const double expected = 100 / (4 * std::numbers::pi * 1984 / 4096);
+  EXPECT_NEAR(intensity, expected, .01 * expected);
+  EXPECT_EQ(seen("Scale 1 1 -1 " + lamp + wall_at_5, folder.path("")).mean(), 0);
 }
 
 /// Of lamps with a power (lm), an illuminance (lx), or their own light, times `scale`.

@@ -72,6 +72,18 @@ TEST(RadianceUnits, UnderASpotlight) {
   EXPECT_EQ(render(beside, "path", "", {16}).mean({""}).mean(), 0);
 }
 
+// A small square whose radiance goes with the cube of the cosine, as luminaires of ies2rad shine by
+// a table: I = L cos³θ · A cosθ.
+TEST(RadianceUnits, UnderALuminaire) {
+  const std::string luminaire =
+      "void brightfunc lobe 2 Dz*Dz*Dz . 0 0\nlobe light l 0 0 3 900 900 900\n"
+      "l polygon p 0 0 12 -.05 -.05 2 -.05 .05 2 .05 .05 2 .05 -.05 2\n";
+  const double d = 2 - 1e-4;
+  expect_irradiance("below", luminaire, 900 * .01 / (d * d));
+  // 45° beside it.
+  expect_irradiance("beside", luminaire, 900 * .01 * std::pow(.5, 2.5) / (2 * d * d), {2, 0, 0});
+}
+
 // E = π L (r / d)² below a ball.
 TEST(RadianceUnits, UnderAGlow) {
   expect_irradiance("glow", "void glow g 0 0 4 20 20 20 0\ng sphere s 0 0 4 0 0 3 .5\n",

@@ -44,10 +44,12 @@ class SceneReader {
     for (const PlacedNode& node : placed) {
       if (!node.is_there) continue;
       if (auto sensor = sensor_of(file_, node, camera_ids_)) put(scene(), "", std::move(sensor));
-      if (auto lamp = lamp_of(file_, node, options_, deviations_)) {
-        put(scene(), "", std::move(lamp));
-        has_lamps = true;
-      }
+      for (auto& lamp :
+           {lamp_of(file_, node, options_, deviations_), luminaire_of(file_, node, deviations_)})
+        if (lamp) {
+          put(scene(), "", lamp);
+          has_lamps = true;
+        }
       for (auto& shape : instances_.shapes_of(node, pose)) put(scene(), "", std::move(shape));
     }
     const bool needs_light = !has_lamps && !materials_.has_bright_emission();

@@ -18,17 +18,6 @@ Vec3d axis_of(const Transform& transform, int column) {
   return {transform.at(0, column), transform.at(1, column), transform.at(2, column)};
 }
 
-/// Where a node stands and looks to, along its −z, without its scale.
-Transform view_of(const File& file, const PlacedNode& placed) {
-  const Vec3d origin = axis_of(placed.to_world, 3);
-  try {
-    return Transform::look_at(origin, origin - axis_of(placed.to_world, 2),
-                              axis_of(placed.to_world, 1));
-  } catch (const std::invalid_argument&) {
-    file.fail(*placed.node, "the node's transform leaves it no direction", "give other factors");
-  }
-}
-
 std::string free_id(std::string id, std::set<std::string>& ids) {
   std::string candidate = id;
   constexpr size_t most_in_turn = 100;  // where more are alike the search would take long
@@ -64,6 +53,16 @@ double aspect_of(const File& file, const JsonValue& camera, bool is_orthographic
 }
 
 }  // namespace
+
+Transform view_of(const File& file, const PlacedNode& placed) {
+  const Vec3d origin = axis_of(placed.to_world, 3);
+  try {
+    return Transform::look_at(origin, origin - axis_of(placed.to_world, 2),
+                              axis_of(placed.to_world, 1));
+  } catch (const std::invalid_argument&) {
+    file.fail(*placed.node, "the node's transform leaves it no direction", "give other factors");
+  }
+}
 
 std::shared_ptr<Object> sensor_of(const File& file, const PlacedNode& placed,
                                   std::set<std::string>& ids) {

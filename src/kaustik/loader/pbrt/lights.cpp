@@ -170,10 +170,32 @@ std::shared_ptr<Object> make_projection(const Lamp& lamp) {
   return light;
 }
 
+/// pbrt-v3 turns columns from +x toward +z about +y, which is the upper edge.
+Transform old_goniometer_from_y_up() {
+  const double rows[4][4] = {{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
+  return Transform(rows);
+}
+
 std::shared_ptr<Object> make_goniometric(const Lamp& lamp) {
-  lamp.list.accept({"filename", "mapname", "from"});
-  lamp.approximated("it shines alike in all directions: its picture is left out");
-  return make_point(lamp);
+  const bool is_old = lamp.tools.is_old;
+  const std::string file = lamp.list.text(lamp.list.has("mapname") ? "mapname" : "filename");
+  if (file.empty()) return make_point(lamp);
+  const auto path = lamp.tools.files.find(file, lamp.place());
+  if (!path || !is_readable_picture(path->string())) {
+    lamp.deviations.missing(
+        lamp.object,
+        fmt::format("picture {} is not there: it shines alike in all directions", shown(file)),
+        lamp.place(), where_files_lie);
+    return make_point(lamp);
+  }
+  auto light = described("emitter", "goniometric", lamp.place());
+  set(*light, "filename", path->string());
+  if (!is_old) set(*light, "projection", std::string("equalarea"));
+  set(*light, "intensity", lamp.light("I", 1));
+  if (const double power = lamp.list.number("power", -1); power > 0) set(*light, "power", power);
+  if (is_old) lamp.approximated("its picture counts by its luminance: the colour is that of 'I'");
+  set(*light, "to_world", lamp.to_world * (is_old ? old_goniometer_from_y_up() : z_up_from_y_up()));
+  return light;
 }
 
 using LightMaker = std::shared_ptr<Object> (*)(const Lamp&);

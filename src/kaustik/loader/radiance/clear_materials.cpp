@@ -78,6 +78,8 @@ void MaterialBuilder::build_light(Appearance& made, bool is_visible) {
   // Pictures on lamps shine; the emission may exceed 1.
   Paint(emitted(), tint_.picture ? texture_ : nullptr).put(*made.emitter, "radiance");
   if (!is_visible) give(*made.emitter, "visible", false);
+  if (!tint_.directed.empty())
+    made.directed = DirectedLight{product(colour(0), tint_.even_factor), tint_.directed};
   if (material_.type() != "glow") return;
   const double reach = real(3, 0);
   if (reach < 0)
@@ -92,6 +94,7 @@ void MaterialBuilder::build_spotlight(Appearance& made) {
   if (!(axis.length() > 0) || largest_of(emitted()) <= 0) return;
   made.beam = Appearance::Beam{emitted(), std::clamp(real(3, 0), 0.0, 360.0), axis.normalized()};
   approximated("its light comes from a point in the middle of its surface, which itself is dark");
+  if (!tint_.directed.empty()) approximated("its pattern counts by its mean");
 }
 
 void MaterialBuilder::build_mirror(Appearance& made) {

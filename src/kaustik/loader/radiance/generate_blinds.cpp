@@ -178,7 +178,7 @@ std::string replace_marks(const Words& words, const GeneratorContext& context) {
   const std::vector<Marker> markers = read_markers(arguments);
   std::string text;
   if (arguments.at_end() && context.input) text = *context.input;
-  while (!arguments.at_end()) text += context.read(arguments.text()) + "\n";
+  while (!arguments.at_end()) text += context.read_part(arguments.text()) + "\n";
   PrimitiveWriter writer;
   for (const Statement& statement : read_statements(text, [&](size_t) { return context.place; })) {
     const auto* primitive = std::get_if<Primitive>(&statement);

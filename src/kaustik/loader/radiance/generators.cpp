@@ -11,6 +11,7 @@ using Generator = std::string (*)(const Words&, const GeneratorContext&);
 
 constexpr auto generators = std::to_array<std::pair<std::string_view, Generator>>({
     {"genbox", generate_box},
+    {"genrbox", generate_box},  // as Debian calls it
     {"genprism", generate_prism},
     {"genrev", generate_revolution},
     {"genworm", generate_worm},
@@ -28,7 +29,7 @@ std::optional<std::string> run_generator(const Words& words, const GeneratorCont
     if (name == words.front()) return generate(words, context);
   if (words.front() != "cat") return std::nullopt;
   std::string all;
-  for (size_t i = 1; i < words.size(); ++i) all += context.read(words[i]) + "\n";
+  for (size_t i = 1; i < words.size(); ++i) all += context.read_part(words[i]) + "\n";
   return all;
 }
 

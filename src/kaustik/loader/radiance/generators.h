@@ -15,6 +15,8 @@ struct GeneratorContext {
   Place place;  ///< of the command
   /// The text of a file that a program names. Throws Error(input).
   std::function<std::string(const std::string& file)> read;
+  /// The same of a part of the scene; "" where there is none, which is told.
+  std::function<std::string(const std::string& file)> read_part;
   /// What the program before it in the line writes; nothing if there is none.
   std::optional<std::string> input;
   Deviations& deviations;

@@ -75,7 +75,7 @@ std::shared_ptr<Appearance> MaterialMaker::make(const Modifier* modifier, bool i
                              "it is a lamp that the camera does not see", material.place());
   }
   const bool shines = radiance_of(material).has_value();
-  const Tint tint = tints_.tint_of(look.patterns, samples, is_mesh, !shines);
+  const Tint tint = tints_.tint_of(look.patterns, samples, is_mesh, !shines, shines);
   ObjectPointer texture;
   if (tint.picture) {
     texture = picture_texture(*tint.picture, tint.picture_modifier->place());

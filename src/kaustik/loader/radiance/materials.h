@@ -12,11 +12,19 @@
 
 namespace kaustik::radiance {
 
+/// The light of a lamp that is another one in each direction: a radiance times patterns.
+struct DirectedLight {
+  Rgb radiance;
+  DirectedPatterns patterns;
+};
+
 /// What a surface needs to be described.
 struct Appearance {
   ObjectPointer bsdf;                ///< null: nothing is there
   ObjectPointer interior, exterior;  ///< media; may be null
   ObjectPointer emitter;             ///< null: it does not shine
+  /// Of some lamps: how they really shine; the emitter has their mean.
+  std::optional<DirectedLight> directed;
   /// Of a spotlight: radiance, whole angle in degrees, and axis in the world.
   struct Beam {
     Rgb radiance;

@@ -98,9 +98,15 @@ class SceneLoader {
                                  place);
         continue;
       }
-      own_views.push_back(read_view(line, place, [&, at = place](const std::string& file) {
-        return files_.text_of(files_.found(file, folder, at), at);
-      }));
+      bool is_there = true;
+      View view = read_view(line, place, [&, at = place](const std::string& file) -> std::string {
+        if (const auto path = files_.find(file, folder, at)) return files_.text_of(*path, at);
+        is_there = false;
+        deviations_.missing(fmt::format("view '{}'", file.substr(0, 100)),
+                            "there is no such file: the view is left out", at);
+        return "rvu -vtv";
+      });
+      if (is_there) own_views.push_back(std::move(view));
     }
     return finish(std::move(own_views), rif.picture, whole);
   }

@@ -209,7 +209,11 @@ void SceneReader::run_programs(const Command& command, const Frame& frame) {
   const auto read_text = [&](const std::string& file) {
     return files_.text_of(files_.found(file, frame.folder, place), place);
   };
-  GeneratorContext context{place, read_text, std::nullopt, deviations_};
+  const auto read_part = [&](const std::string& file) {
+    const auto path = files_.find_part(file, frame.folder, place);
+    return path ? files_.text_of(*path, place) : std::string();
+  };
+  GeneratorContext context{place, read_text, read_part, std::nullopt, deviations_};
   for (const Words& program : programs) {
     auto text = run_generator(program, context);
     if (!text) refuse_command(program.front(), place);

@@ -33,7 +33,9 @@ void SurfaceMaker::add_sphere(const PlacedSurface& surface) {
     normal[i / 2] = i % 2 == 0 ? 1 : -1;
     samples.push_back({centre + normal * std::fabs(radius), normal});
   }
-  const auto appearance = look_at(surface, false, samples);
+  const auto appearance =
+      look_at(surface, false, samples,
+              LampSurface{centre, std::numbers::pi * radius * radius, std::nullopt});
   if (!appearance) return;
   for (const PatternPoint& sample : samples) {
     extend(centre + sample.normal * std::fabs(radius), sample.normal, appearance.get());
@@ -76,7 +78,8 @@ void SurfaceMaker::add_ring(const PlacedSurface& surface) {
                                              {centre - u * (0.7 * outer), normal},
                                              {centre + v * (0.7 * outer), normal},
                                              {centre - v * (0.7 * outer), normal}};
-  const auto appearance = look_at(surface, false, samples);
+  const auto appearance = look_at(surface, false, samples,
+                                  LampSurface{centre, std::numbers::pi * outer * outer, normal});
   if (!appearance) return;
   for (const int sign : {1, -1}) {
     extend(centre + (u + v) * (sign * outer), normal, appearance.get());

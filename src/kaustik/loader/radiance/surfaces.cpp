@@ -29,6 +29,9 @@ std::shared_ptr<const Array> floats_of(std::vector<float>& values, size_t column
   return Array::of<float>({rows, columns}, std::move(values));
 }
 
+/// Each asks its pattern at some thousand directions.
+constexpr int most_luminaires = 1000;
+
 }  // namespace
 
 void SurfaceMaker::add(const PlacedSurface& surface) {
@@ -42,7 +45,8 @@ void SurfaceMaker::add(const PlacedSurface& surface) {
 }
 
 std::shared_ptr<const Appearance> SurfaceMaker::look_at(const PlacedSurface& surface, bool is_mesh,
-                                                        const std::vector<PatternPoint>& samples) {
+                                                        const std::vector<PatternPoint>& samples,
+                                                        const std::optional<LampSurface>& lamp) {
   if (!surface.modifier) {
     deviations_.ignored(name_of(*surface.primitive),
                         "it has the modifier void, and is left out: nothing is seen of it",
@@ -54,7 +58,36 @@ std::shared_ptr<const Appearance> SurfaceMaker::look_at(const PlacedSurface& sur
   while (is_smoothing(modifier)) modifier = modifier->below.get();
   auto appearance = materials_.appearance(modifier, is_mesh, samples);
   if (!appearance->bsdf && !appearance->emitter) return nullptr;
-  return appearance;
+  return appearance->directed ? with_luminaire(appearance, lamp, surface.primitive->place)
+                              : appearance;
+}
+
+std::shared_ptr<const Appearance> SurfaceMaker::with_luminaire(
+    const std::shared_ptr<const Appearance>& appearance, const std::optional<LampSurface>& lamp,
+    const Place& place) {
+  const Modifier& pattern = *appearance->directed->patterns.front().second;
+  const auto luminaire = lamp && luminaires_ < most_luminaires
+                             ? luminaire_of(*appearance->directed, *lamp, place)
+                             : std::nullopt;
+  if (!luminaire) {
+    deviations_.approximated(name_of(*pattern.primitive),
+                             "the pattern depends on the direction of view, and counts by its mean",
+                             pattern.place());
+    return appearance;
+  }
+  ++luminaires_;
+  if (*luminaire) nest(scene_, *luminaire);
+  auto& dark = dark_[appearance.get()];
+  if (dark) return dark;
+  deviations_.approximated(name_of(*pattern.primitive),
+                           "its light comes from a point in the middle of each surface, which "
+                           "itself is dark",
+                           pattern.place());
+  auto made = std::make_shared<Appearance>(*appearance);
+  made->emitter = nullptr;
+  // A sphere would be around its light.
+  if (!lamp->normal) made->bsdf = make_object("bsdf", "null", place);
+  return dark = made;
 }
 
 void SurfaceMaker::extend(const Vec3d& point, const Vec3d& normal, const Appearance* appearance) {
@@ -102,7 +135,8 @@ void SurfaceMaker::add_polygon(const PlacedSurface& surface) {
   std::vector<PatternPoint> samples = {{mean_of(corners), normal}};
   for (size_t i = 0; i < std::min<size_t>(n, 8); ++i)
     samples.push_back({corners[i] * 0.7 + samples[0].position * 0.3, normal});
-  const auto appearance = look_at(surface, true, samples);
+  const auto appearance = look_at(surface, true, samples,
+                                  LampSurface{samples[0].position, 0.5 * area.length(), normal});
   if (!appearance) return;
 
   const auto uvs = texture_coordinates(*appearance, corners, normal, primitive, deviations_);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kaustik/loader/radiance/compiled_reader.h"
+#include "kaustik/loader/radiance/luminaires.h"
 #include "kaustik/loader/radiance/materials.h"
 
 namespace kaustik::radiance {
@@ -54,8 +55,16 @@ class SurfaceMaker {
   void add_band(const PlacedSurface& surface, const Vec3d& from, const Vec3d& to, const Vec3d& axis,
                 double from_radius, double to_radius, bool is_smooth);
 
+  /// `lamp`: of what is flat or a sphere.
   std::shared_ptr<const Appearance> look_at(const PlacedSurface& surface, bool is_mesh,
-                                            const std::vector<PatternPoint>& samples);
+                                            const std::vector<PatternPoint>& samples,
+                                            const std::optional<LampSurface>& lamp = {});
+  /// What a surface looks like whose light is another one in each direction: dark, with a point
+  /// lamp before it; or the same as before, shining by its mean, where it is neither flat nor a
+  /// sphere, or there are too many. Both are told.
+  std::shared_ptr<const Appearance> with_luminaire(
+      const std::shared_ptr<const Appearance>& appearance, const std::optional<LampSurface>& lamp,
+      const Place& place);
   /// The mesh that takes triangles of that look.
   Mesh& mesh_of(const PlacedSurface& surface, const std::shared_ptr<const Appearance>& appearance,
                 bool is_smooth, bool has_uvs);
@@ -71,6 +80,8 @@ class SurfaceMaker {
   Object& scene_;
   std::map<std::tuple<const Appearance*, bool, bool>, Mesh> meshes_;
   std::vector<std::tuple<const Appearance*, bool, bool>> order_;  ///< of meshes, for the same scene
+  std::map<const Appearance*, std::shared_ptr<const Appearance>> dark_;  ///< of luminaires
+  int luminaires_ = 0;
 };
 
 }  // namespace kaustik::radiance

@@ -85,7 +85,7 @@ Variation variation_of(const Pattern& pattern, const std::vector<PatternPoint>& 
 }  // namespace
 
 void TintReader::add(const Modifier& modifier, const std::vector<PatternPoint>& samples,
-                     bool may_vary, Tint& tint) {
+                     bool may_vary, bool is_lamp, Tint& tint) {
   const auto pattern = reader_.pattern(modifier);
   if (!pattern) return;
   const Variation variation = variation_of(*pattern, samples);
@@ -101,6 +101,11 @@ void TintReader::add(const Modifier& modifier, const std::vector<PatternPoint>& 
     return;
   }
   tint.factor = product(tint.factor, *mean);
+  if (is_lamp && variation == Variation::by_direction) {
+    tint.directed.emplace_back(pattern, &modifier);
+    return;
+  }
+  tint.even_factor = product(tint.even_factor, *mean);
   if (variation != Variation::none)
     deviations_.approximated(name,
                              variation == Variation::in_space
@@ -112,11 +117,11 @@ void TintReader::add(const Modifier& modifier, const std::vector<PatternPoint>& 
 
 Tint TintReader::tint_of(const std::vector<const Modifier*>& patterns,
                          const std::vector<PatternPoint>& samples, bool may_have_pictures,
-                         bool may_vary) {
+                         bool may_vary, bool is_lamp) {
   Tint tint;
   for (const Modifier* modifier : patterns) {
     if (!is_picture(*modifier)) {
-      add(*modifier, samples, may_vary, tint);
+      add(*modifier, samples, may_vary, is_lamp, tint);
       continue;
     }
     const auto picture = reader_.picture(*modifier);

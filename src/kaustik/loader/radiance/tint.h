@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kaustik/loader/radiance/pattern_grid.h"
@@ -12,12 +13,18 @@
 
 namespace kaustik::radiance {
 
+/// Patterns that depend on the direction, with where they are defined.
+using DirectedPatterns = std::vector<std::pair<std::shared_ptr<const Pattern>, const Modifier*>>;
+
 /// A factor that is the same everywhere, times a picture or a pattern in space.
 struct Tint {
   Rgb factor{1, 1, 1};
   const Modifier* picture_modifier = nullptr;  ///< null: none
   std::shared_ptr<const PicturePattern> picture;
   std::vector<std::shared_ptr<const Pattern>> in_space;
+  /// Of lamps: those that depend on the direction, and the factor without them.
+  DirectedPatterns directed;
+  Rgb even_factor{1, 1, 1};
 
   bool is_textured() const { return picture_modifier || !in_space.empty(); }
 };
@@ -29,13 +36,15 @@ class TintReader {
       : reader_(reader), deviations_(deviations) {}
 
   /// `samples` are points of the surface, for means. Pictures and patterns in space are kept where
-  /// the surface can have textures; else they count by their means.
+  /// the surface can have textures; else they count by their means. Of lamps those that depend on
+  /// the direction are kept, too, and nothing is told of them.
   Tint tint_of(const std::vector<const Modifier*>& patterns,
-               const std::vector<PatternPoint>& samples, bool may_have_pictures, bool may_vary);
+               const std::vector<PatternPoint>& samples, bool may_have_pictures, bool may_vary,
+               bool is_lamp = false);
 
  private:
   void add(const Modifier& modifier, const std::vector<PatternPoint>& samples, bool may_vary,
-           Tint& tint);
+           bool is_lamp, Tint& tint);
 
   PatternReader& reader_;
   Deviations& deviations_;
