@@ -213,8 +213,8 @@ class Integrator {
   /// Goes on with lessons() of another one. Throws Error(input) if they are damaged or of another
   /// picture. Before the first prepare() and learn().
   virtual void go_on_with(const Lessons& /*lessons*/, LessonUse) {}
-  /// From now on prepared passes teach nothing by themselves, but what they teach can be taken here,
-  /// as long as the integrator lives. Null: nothing is learned from passes. Before the first
+  /// From now on prepared passes teach nothing by themselves, but what they teach can be taken
+  /// here, as long as the integrator lives. Null: nothing is learned from passes. Before the first
   /// prepare() and learn(), after go_on_with().
   virtual SharedLessons* share_lessons() const { return nullptr; }
   /// Keeps from now on the light of pass 0 for kept_light(), and begins with `light`, null: none,
