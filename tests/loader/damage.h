@@ -2,7 +2,10 @@
 // Damaged copies of a text, for readers that must return or throw whatever the bytes.
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <random>
 #include <string>
@@ -25,18 +28,51 @@ inline int damage_rounds([[maybe_unused]] int usual, [[maybe_unused]] int in_slo
 #endif
 }
 
+/// Where rounds are asked for: prints how many texts were tried, and how long they took.
+class DamageReport {
+ public:
+  /// A text is tried now. The file of KAUSTIK_DAMAGE_KEEP has it, if the program does not survive.
+  void begin(const std::string& text) {
+    if (const char* kept = std::getenv("KAUSTIK_DAMAGE_KEEP"))
+      std::ofstream(kept, std::ios::binary) << text;
+    begun_ = Clock::now();
+  }
+  void end() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+    ++texts_;
+    seconds_ += seconds;
+    slowest_ = std::max(slowest_, seconds);
+  }
+  void print(unsigned seed, int refused) const {
+    if (!std::getenv("KAUSTIK_DAMAGE_ROUNDS")) return;
+    std::printf("seed %u: %d texts, %d refused, %.0f s, %.1f ms each, the slowest %.2f s\n", seed,
+                texts_, refused, seconds_, 1e3 * seconds_ / std::max(texts_, 1), slowest_);
+    std::fflush(stdout);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begun_;
+  int texts_ = 0;
+  double seconds_ = 0, slowest_ = 0;
+};
+
 /// Calls `survives` with so many copies of a text, each changed up to `most_changes` times. How
 /// many did not survive.
 template <typename Survives>
 int count_refused(const std::string& whole, unsigned seed, int rounds, unsigned most_changes,
                   const Change& change, const Survives& survives) {
   std::mt19937 random(seed);
+  DamageReport report;
   int refused = 0;
   for (int round = 0; round < rounds; ++round) {
     std::string text = whole;
     for (size_t changes = 1 + random() % most_changes; changes > 0; --changes) change(text, random);
+    report.begin(text);
     if (!survives(text)) ++refused;
+    report.end();
   }
+  report.print(seed, refused);
   return refused;
 }
 

@@ -46,12 +46,18 @@ struct Packed {
   size_t points = 0;
 };
 
-Packed packed_bowl(int method) {
+/// With a further attribute of so many numbers, if there are any.
+Packed packed_bowl(int method, int8_t further_components = 0) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(face_count);
   const int position =
       builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
   const int color = builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8, true);
+  const std::vector<float> further_values(size_t(further_components), 1.f);
+  const int further = further_components == 0
+                          ? -1
+                          : builder.AddAttribute(draco::GeometryAttribute::GENERIC,
+                                                 further_components, draco::DT_FLOAT32);
   const auto faces = bowl();
   for (int i = 0; i < face_count; ++i) {
     const auto& face = faces[size_t(i)];
@@ -60,6 +66,10 @@ Packed packed_bowl(int method) {
                                       face[2].position.data());
     builder.SetAttributeValuesForFace(color, draco::FaceIndex(uint32_t(i)), face[0].color.data(),
                                       face[1].color.data(), face[2].color.data());
+    if (further >= 0)
+      builder.SetAttributeValuesForFace(further, draco::FaceIndex(uint32_t(i)),
+                                        further_values.data(), further_values.data(),
+                                        further_values.data());
   }
   const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
   draco::Encoder encoder;
@@ -160,6 +170,14 @@ TEST(GltfDraco, WhatDoesNotFitIsABox) {
   other = good;
   other.bytes.resize(good.bytes.size() / 2);
   EXPECT_TRUE(is_box(file_of(other)));
+}
+
+// A third attribute that nobody asks for, of 100 numbers: the decoder makes no room for it.
+TEST(GltfDraco, AttributesOutOfProportionAreABox) {
+  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+    EXPECT_FALSE(is_box(file_of(packed_bowl(method, 8)))) << method;
+    EXPECT_TRUE(is_box(file_of(packed_bowl(method, 100)))) << method;
+  }
 }
 
 // Each byte, and random ones: nothing but a mesh or a box comes of it.

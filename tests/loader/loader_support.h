@@ -11,6 +11,7 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kaustik {
 
@@ -85,30 +86,6 @@ inline std::string lenient_warning(const std::string& text) {
   return description.warnings.empty() ? "" : description.warnings[0];
 }
 
-/// A folder that is removed in the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "kaustik_XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  std::string write(const std::string& name, const std::string& text) const {
-    const std::string path = *this / name;
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
-
- private:
-  std::string path_;
-};
+using test::TemporaryFolder;
 
 }  // namespace kaustik

@@ -126,6 +126,16 @@ TEST(PbrtCamera, LensesOfSurfacesAreThinOnes) {
   EXPECT_TRUE(is_approximated(scene, "camera", "100 mm"));
 }
 
+TEST(PbrtFilm, TheLobesOfAFilterHaveBounds) {
+  for (const auto& [tau, lobes] : {std::pair{"1e30", 10}, {"-1e30", 1}, {"4.4", 4}}) {
+    const Description scene =
+        parse_scene_of_pbrt("PixelFilter \"sinc\" \"float tau\" " + std::string(tau) +
+                            " Camera \"perspective\" WorldBegin");
+    const Object& film = only(only(scene, "sensor"), "film");
+    EXPECT_EQ(value<int64_t>(only(film, "rfilter"), "lobes"), lobes);
+  }
+}
+
 TEST(PbrtFilm, SizeCropExposureFilterSamples) {
   const Description scene = parse_scene_of_pbrt(
       "Film \"rgb\" \"integer xresolution\" 100 \"integer yresolution\" 50 \"float cropwindow\" "

@@ -64,6 +64,13 @@ TEST(RadianceSkies, UniformSkiesByIrradiance) {
   EXPECT_NEAR(horizontal_irradiance(sole_object(scene, "emitter")), 100, 0.1);
 }
 
+// As its function has it: no sky has such a number.
+TEST(RadianceSkies, UnknownSkiesAreUniform) {
+  const auto scene =
+      parse_rad("void brightfunc skyfunc 2 skybr skybright.cal 0 3 1e308 2 0\n" + glow_on_sky);
+  EXPECT_NEAR(radiance_toward(sole_object(scene, "emitter"), {0, 0, 1}), 2, 1e-3);
+}
+
 TEST(RadianceSkies, ClearSkiesAndTheirSun) {
   const auto scene = parse_rad("!gensky -ang 40 -30 +s -b 20 -r 5e6\n" + glow_on_sky);
   const auto lights = rad_objects(scene, "emitter");

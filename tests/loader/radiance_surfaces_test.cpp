@@ -181,6 +181,29 @@ TEST(RadianceGenerators, WormsRevolutionsAndBlinds) {
   EXPECT_NEAR(area_of(sole_object(blinds, "shape")), 10 * 0.1 * 2, 1e-5);
   const auto curved = parse_rad(grey + "!genblinds grey b .1 2 3 10 0 -r .08\n");
   EXPECT_NEAR(area_of(sole_object(curved, "shape")), 10 * 2 * 0.16 * std::asin(0.625), 0.002);
+  // To the other side, and as deep as a slat of that radius can be.
+  const auto other = parse_rad(grey + "!genblinds grey b -9 2 3 10 0 -r .08\n");
+  EXPECT_NEAR(area_of(sole_object(other, "shape")), 10 * 2 * 0.08 * pi_d, 0.002);
+}
+
+// A short command could fill the memory.
+TEST(RadianceGenerators, ManyPartsWithLongNamesAreRefused) {
+  const std::string name(100'000, 'n');
+  for (const std::string& command :
+       {"genrev grey " + name + " t 1+t 10000", "genblinds grey " + name + " .1 1 1 10000 0",
+        "genworm grey " + name + " t t t .1 10000", "gensurf grey " + name + " s t 0 100 100"})
+    try {
+      parse_rad(grey + "!" + command + "\n");
+      FAIL() << command.substr(0, 20);
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("writes more than 32 MiB"), std::string::npos);
+    }
+}
+
+TEST(RadianceGenerators, DebianCallsGenboxByAnotherName) {
+  EXPECT_EQ(
+      rad_numbers(sole_object(parse_rad(grey + "!genrbox grey b 1 2 3\n"), "shape"), "positions"),
+      rad_numbers(sole_object(parse_rad(grey + "!genbox grey b 1 2 3\n"), "shape"), "positions"));
 }
 
 TEST(RadianceGenerators, MarkersAreReplaced) {
@@ -192,6 +215,15 @@ TEST(RadianceGenerators, MarkersAreReplaced) {
       load_radiance(folder.write("a.rad", grey + "!replmarks -s .5 -x thing.rad mark marks.rad\n"));
   const Object& ball = sole_object(scene, "shape");
   EXPECT_NEAR((value<Vec3d>(ball, "center") - Vec3d(3, 1, 0)).length(), 0, 1e-9);
+}
+
+TEST(RadianceGenerators, MarksThatAreNotThereAreTold) {
+  TemporaryFolder folder;
+  const auto scene =
+      load_radiance(folder.write("a.rad", grey + "grey sphere s 0 0 4 1 0 0 .25\n"
+                                                 "!replmarks -x thing.rad mark no.rad\n"));
+  EXPECT_EQ(rad_objects(scene, "shape").size(), 1u);
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "no.rad", ""));
 }
 
 }  // namespace

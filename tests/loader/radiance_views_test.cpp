@@ -84,6 +84,12 @@ TEST_F(RadianceViews, SeveralAndFromFiles) {
   EXPECT_EQ(*number_in(*cameras[1], "fov"), 20);
 }
 
+TEST_F(RadianceViews, FilesThatAreNotThereAreTold) {
+  const auto scene = with_view("one -vtv -vh 30\nview= two -vf no.vf");
+  EXPECT_EQ(sole_object(scene, "sensor").id, "one");
+  EXPECT_TRUE(tells(scene, DeviationKind::missing, "view 'no.vf'", "no such file"));
+}
+
 TEST_F(RadianceViews, AViewFileShowsTheSceneBesideIt) {
   with_view("one -vtv");
   const auto scene = load_radiance(folder_.write("eye.vf", "rvu -vtv -vp 0 0 7 -vd 0 1 0\n"));

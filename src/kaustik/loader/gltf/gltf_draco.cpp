@@ -1,6 +1,8 @@
 #include "kaustik/loader/gltf/gltf_draco.h"
 
-#include <draco/compression/decode.h>
+#include <draco/compression/config/decoder_options.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 
 #include <cstring>
 #include <memory>
@@ -8,6 +10,13 @@
 
 namespace kaustik::gltf {
 namespace {
+
+constexpr unsigned sequential = 0, edgebreaker = 1;
+constexpr size_t method_at = 8;
+
+bool is_sequential(std::span<const std::byte> packed) {
+  return std::to_integer<unsigned>(packed[method_at]) == sequential;
+}
 
 /// What stands before the packed data (Draco bitstream 2.2, sections 4 to 6).
 class DracoHead {
@@ -18,11 +27,11 @@ class DracoHead {
   bool fits(const DracoMesh& mesh) {
     constexpr char mark[] = {'D', 'R', 'A', 'C', 'O'};
     constexpr size_t head_bytes = 11;
-    constexpr unsigned triangles = 1, sequential = 0, edgebreaker = 1, metadata_flag = 0x80;
+    constexpr unsigned triangles = 1, metadata_flag = 0x80;
     if (rest_.size() < head_bytes || std::memcmp(rest_.data(), mark, sizeof(mark)) != 0)
       return false;
     const auto byte = [&](size_t at) { return std::to_integer<unsigned>(rest_[at]); };
-    const unsigned kind = byte(7), method = byte(8);
+    const unsigned kind = byte(7), method = byte(method_at);
     if (byte(5) != 2 || byte(6) != 2 || kind != triangles || (byte(10) & metadata_flag) != 0)
       return false;
     // The kind of traversal follows where edges are broken.
@@ -54,6 +63,40 @@ class DracoHead {
   std::span<const std::byte> rest_;
 };
 
+/// A decoder that makes no room for attributes that take more than so many bytes of a vertex: a few
+/// bytes of packed data may ask for thousands.
+template <typename Decoder>
+class BoundedDecoder : public Decoder {
+ public:
+  explicit BoundedDecoder(size_t most_vertex_bytes) : most_vertex_bytes_(most_vertex_bytes) {}
+
+ private:
+  /// The attributes are known by then, but have no values yet.
+  bool DecodeAllAttributes() override {
+    const draco::PointCloud& mesh = *this->point_cloud();
+    size_t vertex_bytes = 0;
+    for (int i = 0; i < mesh.num_attributes(); ++i) {
+      const draco::PointAttribute& attribute = *mesh.attribute(i);
+      vertex_bytes +=
+          size_t(attribute.num_components()) * size_t(draco::DataTypeLength(attribute.data_type()));
+    }
+    return vertex_bytes <= most_vertex_bytes_ && Decoder::DecodeAllAttributes();
+  }
+
+  size_t most_vertex_bytes_;
+};
+
+template <typename Decoder>
+std::unique_ptr<draco::Mesh> decoded_by(std::span<const std::byte> packed,
+                                        size_t most_vertex_bytes) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(packed.data()), packed.size());
+  auto mesh = std::make_unique<draco::Mesh>();
+  BoundedDecoder<Decoder> decoder(most_vertex_bytes);
+  const bool is_whole = decoder.Decode(draco::DecoderOptions(), &buffer, mesh.get()).ok();
+  return is_whole ? std::move(mesh) : nullptr;
+}
+
 bool take_values(const draco::Mesh& from, DracoMesh::Attribute& attribute) {
   const draco::PointAttribute* packed = from.GetAttributeByUniqueId(attribute.id);
   if (!packed || size_t(packed->num_components()) != attribute.components) return false;
@@ -73,12 +116,10 @@ bool take_values(const draco::Mesh& from, DracoMesh::Attribute& attribute) {
 
 bool unpack_draco(std::span<const std::byte> packed, DracoMesh& mesh) try {
   if (!DracoHead(packed).fits(mesh)) return false;
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(packed.data()), packed.size());
-  draco::Decoder decoder;
-  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok()) return false;
-  const std::unique_ptr<draco::Mesh> found = std::move(decoded).value();
+  const auto decoded = is_sequential(packed) ? decoded_by<draco::MeshSequentialDecoder>
+                                             : decoded_by<draco::MeshEdgebreakerDecoder>;
+  const std::unique_ptr<draco::Mesh> found = decoded(packed, mesh.most_vertex_bytes());
+  if (!found) return false;
   if (found->num_points() != mesh.vertices || 3 * size_t(found->num_faces()) != mesh.corners)
     return false;
   for (DracoMesh::Attribute& attribute : mesh.attributes)

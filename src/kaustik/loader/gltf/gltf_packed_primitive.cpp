@@ -64,11 +64,10 @@ void supply_unpacked(File& file, Accessors& accessors, const JsonValue& primitiv
   mesh.vertices = accessors.shape(*position, *attributes).count;
   mesh.corners = accessors.shape(*indices, primitive).count;
   std::vector<Target> targets = targets_of(file, accessors, primitive, *packed, mesh.vertices);
-  size_t numbers = mesh.corners;
-  for (const Target& target : targets) numbers += mesh.vertices * target.attribute.components;
+  for (const Target& target : targets) mesh.attributes.push_back(target.attribute);
   // The decoder has all of it, too.
-  file.spend(2 * sizeof(float) * numbers, primitive);
-  for (Target& target : targets) mesh.attributes.push_back(std::move(target.attribute));
+  file.spend(2 * sizeof(float) * mesh.corners, primitive);
+  file.spend(2 * mesh.most_vertex_bytes() * mesh.vertices, primitive);
   if (!unpack_draco(file.view(*view, *packed).bytes, mesh)) give_up("are damaged");
   for (size_t i = 0; i < targets.size(); ++i) {
     DracoMesh::Attribute& attribute = mesh.attributes[i];

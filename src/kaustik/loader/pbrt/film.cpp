@@ -35,7 +35,7 @@ std::shared_ptr<Object> make_filter(const ViewTools& tools, const ViewSettings& 
       tools.deviations.approximated("pixel filter", "it is two pixels wide", place);
   } else if (filter.type == "sinc") {
     made = described("rfilter", "lanczos", place);
-    set(*made, "lobes", int64_t{std::clamp(int(std::lround(list.number("tau", 3))), 1, 10)});
+    set(*made, "lobes", int64_t{std::lround(std::clamp(list.number("tau", 3), 1.0, 10.0))});
     radius(4);
   } else {
     made = described("rfilter", "gaussian", place);

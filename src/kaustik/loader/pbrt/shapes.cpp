@@ -221,7 +221,7 @@ std::shared_ptr<Object> make_subdivided(const ShapeTools& tools) {
   int levels = std::clamp(tools.list.integer("levels", tools.list.integer("nlevels", 3)), 0, 12);
   tools.list.accept({"scheme"});
   // Each level has four times the faces: a few levels are usual, more stay in bounds.
-  constexpr size_t most_faces = size_t{1} << 18;
+  constexpr size_t most_faces = size_t{1} << 16;
   constexpr int usual_levels = 4;
   const int wanted = levels;
   while (levels > usual_levels && (faces->size() / 3) << (2 * levels) > most_faces) --levels;

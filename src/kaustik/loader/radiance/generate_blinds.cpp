@@ -20,8 +20,10 @@ constexpr size_t most_slats = 100'000;
 /// of facets of at most 3 degrees; it sags where the radius is above zero, and else it bulges.
 std::vector<std::pair<double, double>> slat_profile(double depth, double angle, double radius) {
   if (radius == 0) return {{0, 0}, {depth * std::cos(angle), depth * std::sin(angle)}};
-  const double r = std::fabs(radius), opening = 2 * std::asin(std::min(1.0, depth / (2 * r)));
-  const int facets = std::max(1, int(std::ceil(opening / (3 * degree) - 1e-5)));
+  // A depth below zero is across to the other side.
+  const double r = std::fabs(radius);
+  const double opening = 2 * std::asin(std::clamp(depth / (2 * r), -1.0, 1.0));
+  const int facets = std::max(1, int(std::ceil(std::fabs(opening) / (3 * degree) - 1e-5)));
   const double start = (std::numbers::pi - opening) / 2 - angle;
   std::vector<std::pair<double, double>> profile;
   for (int i = 0; i <= facets; ++i) {
@@ -158,7 +160,7 @@ std::string generate_blinds(const Words& words, const GeneratorContext& context)
     radius = (option == "-r" ? 1 : -1) * arguments.number();
   }
   const auto profile = slat_profile(depth, angle, radius);
-  PrimitiveWriter writer;
+  PrimitiveWriter writer(context.place);
   for (size_t slat = 1; slat <= slats; ++slat) {
     const double z = height * (double(slat) - 0.5) / double(slats);
     for (size_t i = 0; i + 1 < profile.size(); ++i) {
@@ -179,7 +181,7 @@ std::string replace_marks(const Words& words, const GeneratorContext& context) {
   std::string text;
   if (arguments.at_end() && context.input) text = *context.input;
   while (!arguments.at_end()) text += context.read_part(arguments.text()) + "\n";
-  PrimitiveWriter writer;
+  PrimitiveWriter writer(context.place);
   for (const Statement& statement : read_statements(text, [&](size_t) { return context.place; })) {
     const auto* primitive = std::get_if<Primitive>(&statement);
     if (!primitive) {

@@ -15,12 +15,14 @@ namespace {
 /// A box from the origin to `size`, with edges that are bevelled or rounded by `radius`.
 class Box {
  public:
-  Box(std::string modifier, std::string id, const Vec3d& size, double radius, bool is_inward)
+  Box(std::string modifier, std::string id, const Vec3d& size, double radius, bool is_inward,
+      Place place)
       : modifier_(std::move(modifier)),
         id_(std::move(id)),
         size_(size),
         radius_(radius),
-        is_inward_(is_inward) {}
+        is_inward_(is_inward),
+        writer_(std::move(place)) {}
 
   std::string write(bool is_rounded) {
     for (int axis = 0; axis < 3; ++axis)
@@ -159,7 +161,7 @@ std::string generate_box(const Words& words, const GeneratorContext& context) {
       arguments.refuse(fmt::format("'genbox' has no option '{}'", option.substr(0, 40)));
     }
   }
-  return Box(modifier, id, {x, y, z}, radius, is_inward).write(is_rounded);
+  return Box(modifier, id, {x, y, z}, radius, is_inward, context.place).write(is_rounded);
 }
 
 std::string generate_prism(const Words& words, const GeneratorContext& context) {
@@ -187,7 +189,7 @@ std::string generate_prism(const Words& words, const GeneratorContext& context) 
       arguments.refuse(fmt::format("'genprism' has no option '{}'", option.substr(0, 40)));
     }
   }
-  PrimitiveWriter writer;
+  PrimitiveWriter writer(context.place);
   const size_t n = outline.size();
   if (has_ends) {
     writer.polygon(modifier, id + ".b", outline);

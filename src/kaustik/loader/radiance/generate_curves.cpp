@@ -139,11 +139,12 @@ struct GridPoint {
 /// Writes the facets between two rows of a gensurf surface.
 class FacetWriter {
  public:
-  FacetWriter(std::string modifier, std::string id, bool is_smooth, bool is_reversed)
+  FacetWriter(std::string modifier, std::string id, bool is_smooth, bool is_reversed, Place place)
       : modifier_(std::move(modifier)),
         id_(std::move(id)),
         is_smooth_(is_smooth),
-        is_reversed_(is_reversed) {}
+        is_reversed_(is_reversed),
+        writer_(std::move(place)) {}
 
   void triangle(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
     if (!a.is_there || !b.is_there || !c.is_there) return;
@@ -202,7 +203,7 @@ std::string generate_revolution(const Words& words, const GeneratorContext& cont
                                     context.place);
   CurveFunctions& functions = command.functions;
   const size_t segments = command.count(0, most_segments);
-  PrimitiveWriter writer;
+  PrimitiveWriter writer(context.place);
   double z = functions.at("Z`SYS", {0}), r = functions.at("R`SYS", {0});
   for (size_t i = 1; i <= segments; ++i) {
     const double t = double(i) / double(segments);
@@ -223,7 +224,7 @@ std::string generate_worm(const Words& words, const GeneratorContext& context) {
   CurveFunctions& functions = command.functions;
   const std::string &modifier = command.modifier, &id = command.id;
   const size_t segments = command.count(0, most_segments);
-  PrimitiveWriter writer;
+  PrimitiveWriter writer(context.place);
   Vec3d last;
   double last_r = 0;
   for (size_t i = 0; i <= segments; ++i) {
@@ -270,7 +271,7 @@ std::string generate_surface(const Words& words, const GeneratorContext& context
                    functions.at("Z`SYS", {s, t})};
     }
   if (is_smooth) add_normals(grid);
-  FacetWriter writer(command.modifier, command.id, is_smooth, is_reversed);
+  FacetWriter writer(command.modifier, command.id, is_smooth, is_reversed, context.place);
   for (size_t i = 0; i < m; ++i)
     for (size_t j = 0; j < n; ++j) {
       const GridPoint &a = grid[i][j], &b = grid[i + 1][j], &c = grid[i + 1][j + 1],

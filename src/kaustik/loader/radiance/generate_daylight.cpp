@@ -252,7 +252,7 @@ std::string generate_perez_sky(const Words& words, const GeneratorContext& conte
   const bool shines = options.has_sun && light.clearness > 1 && direct > 0;
   const double ground =
       options.reflectance / std::numbers::pi * (diffuse + (shines ? direct * to_sun.z : 0));
-  PrimitiveWriter writer;
+  PrimitiveWriter writer(context.place);
   if (shines)
     add_sun(writer, direct / (2 * std::numbers::pi * (1 - std::cos(sun_half_angle))), to_sun,
             2 * sun_half_angle / degree);

@@ -134,7 +134,7 @@ std::string generate_cie_sky(const Words& words, const GeneratorContext& context
   const Vec3d to_sun = place.direction();
   const double zenith = sky.zenith_radiance(place.altitude);
   double ground = zenith * sky.irradiance_factor(place.altitude);
-  PrimitiveWriter writer;
+  PrimitiveWriter writer(context.place);
   const bool may_shine =
       !sky.is_cloudy() && to_sun.z > 0 && !(sky.sun.is_given && sky.sun.value <= 0);
   if (may_shine) {

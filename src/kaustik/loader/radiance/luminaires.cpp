@@ -10,6 +10,7 @@
 
 #include "kaustik/base/photometric_units.h"
 #include "kaustik/loader/radiance/cal_program.h"
+#include "kaustik/loader/radiance/placement.h"
 #include "kaustik/loader/radiance/surface_parts.h"
 
 namespace kaustik::radiance {

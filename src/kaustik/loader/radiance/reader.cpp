@@ -211,7 +211,9 @@ void SceneReader::run_programs(const Command& command, const Frame& frame) {
   };
   const auto read_part = [&](const std::string& file) {
     const auto path = files_.find_part(file, frame.folder, place);
-    return path ? files_.text_of(*path, place) : std::string();
+    std::string text = path ? files_.text_of(*path, place) : std::string();
+    files_.budget().spend(4 * text.size(), place);
+    return text;
   };
   GeneratorContext context{place, read_text, read_part, std::nullopt, deviations_};
   for (const Words& program : programs) {

@@ -13,7 +13,7 @@ std::optional<SkyModel> SkyModel::of(std::string_view function, std::string_view
   if (file == "skybright.cal" && (function == "skybr" || function == "skybright")) {
     if (a.size() < 3) return std::nullopt;
     const bool is_old = function == "skybright";  // its first argument says whether it is cloudy
-    const int type = int(std::floor(a[0] + 0.5));
+    const double type = std::floor(a[0] + 0.5);
     sky.type_ = is_old      ? (a[0] > 0 ? Type::overcast : Type::clear)
                 : type == 1 ? Type::clear
                 : type == 2 ? Type::overcast
