@@ -5,13 +5,9 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$1
 compiler=$2
+source "$root/tests/support/script.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-
-fail() {
-  echo "install_test: $*" >&2
-  exit 1
-}
 
 install_component() {
   cmake --install "$build" --prefix "$work/$1" --component "$1" >"$work/install.log" || fail "$(cat "$work/install.log")"

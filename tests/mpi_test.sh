@@ -5,13 +5,8 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 kaustik=$(realpath "$1") kaustik_mpi=$(realpath "$2")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-fail() {
-  echo "$*" >&2
-  exit 1
-}
+source "$root/tests/support/script.sh"
+in_own_folder
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 # together PROCESSES ARGUMENTS…
 together() {
@@ -55,11 +50,7 @@ grep -q "kaustik-mpi renders" out || fail "merge is no command of kaustik-mpi"
 together_meanwhile 3 "${render[@]}" --integrator path --passes 10000 --spp 40000 --checkpoint part.kpt --every 1s \
   -o ended.exr
 mpirun=$!
-for ((i = 0; i < 100; ++i)); do
-  [[ -s part.kpt ]] && break
-  sleep 0.2
-done
-[[ -s part.kpt ]] || fail "no checkpoint comes meanwhile"
+until_true 60 "a checkpoint of what is finished" test -s part.kpt
 last=$(pgrep -P "$mpirun" | tail -1)
 kill -TERM "$last"
 code=0
@@ -78,11 +69,7 @@ kept=(--checkpoint part.kpt --resume-if-there --every 0.2s -o all.exr)
 begin_disturbed() {
   together_meanwhile 3 "${long[@]}" "${kept[@]}"
   mpirun=$!
-  for ((i = 0; i < 100; ++i)); do
-    [[ -s part.kpt ]] && break
-    sleep 0.1
-  done
-  [[ -s part.kpt ]] || fail "no checkpoint comes meanwhile"
+  until_true 60 "a checkpoint of what is finished" test -s part.kpt
   mapfile -t ranks < <(pgrep -P "$mpirun" "$(basename "$kaustik_mpi")")
   [[ ${#ranks[@]} -eq 3 ]] || fail "there are ${#ranks[@]} processes"
 }

@@ -8,13 +8,8 @@ if [[ -z ${HOSTS:-} ]]; then
   exec python3 "$root/tests/slow_network.py" --hosts 3 --mbit 10 --delay-ms 50 -- "$0" "$@"
 fi
 kaustik=$(realpath "$1") kaustik_mpi=$(realpath "$2")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-fail() {
-  echo "$*" >&2
-  exit 1
-}
+source "$root/tests/support/script.sh"
+in_own_folder
 read -ra options <<<"$HOSTS_MPIRUN"
 together() { mpirun "${options[@]}" --host "$HOSTS" -np 3 "$@"; }
 
@@ -44,11 +39,7 @@ long=("${render[@]}" --integrator path --passes 160 --spp 1280 --checkpoint "$wo
   -o all.exr)
 (exec mpirun "${options[@]}" --host "$HOSTS" -np 3 "$kaustik_mpi" "${long[@]}") >out 2>&1 &
 mpirun=$!
-for ((i = 0; i < 300; ++i)); do
-  [[ -s part.kpt ]] && break
-  sleep 0.1
-done
-[[ -s part.kpt ]] || { cat out; fail "no checkpoint comes meanwhile"; }
+until_true 60 "a checkpoint of what is finished" test -s part.kpt
 victim=$(pgrep -n -f "^$kaustik_mpi .*$work/part.kpt")
 kill -KILL "$victim"
 code=0

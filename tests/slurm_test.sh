@@ -5,6 +5,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 kaustik=$(realpath "$1")
+source "$root/tests/support/script.sh"
 for program in munged slurmctld slurmd sbatch; do
   command -v "$program" >/dev/null || PATH=$PATH:/usr/sbin
   command -v "$program" >/dev/null || { echo "skipped: no $program (packages munge, slurmctld, slurmd, slurm-client)"; exit 77; }
@@ -21,20 +22,6 @@ end() {
   rm -rf "$work"
 }
 trap 'end $?' EXIT
-fail() {
-  echo "$*" >&2
-  exit 1
-}
-# until_true SECONDS WHAT COMMAND…
-until_true() {
-  local seconds=$1 what=$2
-  shift 2
-  for ((i = 0; i < 2 * seconds; ++i)); do
-    "$@" && return
-    sleep 0.5
-  done
-  fail "$what: not within $seconds s"
-}
 
 # One node, two partitions: jobs of `high` preempt those of `low`.
 mkdir "$work/state" "$work/spool" "$work/munge"

@@ -118,12 +118,11 @@ void add_merge(CLI::App& program) {
       "Join results computed in parts: passes of a picture (kaustik render --part), or photon maps "
       "(kaustik photons --part).");
   command->footer(
-      "The result has the same bits as a single run, whatever the order of the parts. A checkpoint "
-      "of some parts can be merged with others. Passes need the memory of one film, however many "
+      "The result has the same bits as a single run, whatever the order of the parts: of a photon "
+      "map, all but the sum of flux in its report. A checkpoint of some parts can be merged with others. Passes need the memory of one film, however many "
       "parts there are; photons some hundred MB, and twice their room on the disk meanwhile. If a "
-      "part is damaged, given twice, or of another render, nothing is "
-      "written "
-      "and nothing is removed.");
+      "part is damaged, given twice, or of another render, nothing is written and nothing is "
+      "removed.");
   auto o = std::make_shared<MergeOptions>();
   takes_files(command
                   ->add_option("parts", o->inputs,

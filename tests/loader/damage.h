@@ -1,6 +1,8 @@
 #pragma once
 // Damaged copies of a text, for readers that must return or throw whatever the bytes.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -10,6 +12,8 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include "kaustik/base/error.h"
 
 namespace kaustik {
 
@@ -56,6 +60,23 @@ class DamageReport {
   int texts_ = 0;
   double seconds_ = 0, slowest_ = 0;
 };
+
+/// Whether read() returns true. If it throws, each problem must have a message, a remedy and a file
+/// as its place.
+template <typename Read>
+bool is_accepted(const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    EXPECT_FALSE(error.problems().empty());
+    for (const Problem& problem : error.problems()) {
+      EXPECT_FALSE(problem.message.empty());
+      EXPECT_FALSE(problem.remedy.empty()) << problem.message;
+      EXPECT_TRUE(problem.place.file) << problem.message;
+    }
+  }
+  return false;
+}
 
 /// Calls `survives` with so many copies of a text, each changed up to `most_changes` times. How
 /// many did not survive.

@@ -10,6 +10,7 @@
 #include "kaustik/render/film_reduction.h"
 #include "kaustik/render/job.h"
 #include "kaustik/render/team_messages.h"
+#include "tests/support/counted_clock.h"
 #include "tests/support/film.h"
 #include "tests/support/local_team.h"
 #include "tests/support/same_bits.h"
@@ -123,6 +124,37 @@ TEST_F(TeamTest, GoesOnWithACheckpointOfAnyNumber) {
   more.record = begun.record;
   more.begun = std::move(begun);
   EXPECT_TRUE(same_bits(together(2, "auto", more).image, one.image));
+}
+
+/// Half a second a pass, by clocks of their own.
+TEST_F(TeamTest, WhoDiesTakesNoMoreThanTheInterval) {
+  constexpr double interval_s = 10, pass_s = 0.5;
+  const auto scene = scene_with(film_of(64, 4), room);
+  std::vector<double> moments{0};
+  double end_s = 0;
+  LocalTeam(3).run([&](const std::shared_ptr<Team>& member) {
+    CountedClock clock;
+    Script script;
+    script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
+      clock.advance(0.5);
+      sink.add(Component::direct, Spectrum(2));
+    };
+    SessionSettings settings = settings_of(300).session;
+    settings.samples_per_pass = 4;
+    settings.clock = clock.reader();
+    settings.team = member;
+    settings.team_interval_s = interval_s;
+    const Scripted integrator(script);
+    Session session(*scene, integrator, settings);
+    session.run({}, {}, [&] {
+      if (member->is_led_here()) moments.push_back(clock.reader()());
+    });
+    if (member->is_led_here()) end_s = clock.reader()();
+  });
+  EXPECT_DOUBLE_EQ(moments.back(), end_s);
+  EXPECT_GE(moments.size(), 5u);
+  for (size_t i = 1; i < moments.size(); ++i)
+    EXPECT_LE(moments[i] - moments[i - 1], interval_s + pass_s) << i;
 }
 
 TEST_F(TeamTest, OneWhoStopsStopsAll) {

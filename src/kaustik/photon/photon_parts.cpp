@@ -30,9 +30,16 @@ PhotonBounds bounds_of(const std::vector<const PhotonMap*>& maps) {
   return bounds;
 }
 
+constexpr size_t most_photons = KdTree<3, Vec3f, Photon>::max_size;
+
 size_t count_of(const std::vector<const PhotonMap*>& maps) {
   size_t count = 0;
   for (const PhotonMap* map : maps) count += map->size();
+  if (count > most_photons)
+    throw Error(ErrorKind::input,
+                fmt::format("the parts have {} photons for one map, which holds {} at most", count,
+                            most_photons),
+                "trace fewer photons, or render with passes of their own");
   return count;
 }
 

@@ -12,7 +12,8 @@ namespace kaustik {
 void sort_photons(PhotonMaps& maps);
 
 /// The maps of a whole pass from all of its parts, in any order. Throws Error(input) if a part is
-/// missing or comes twice, or parts are of different scenes, wavelengths, seeds or settings.
+/// missing or comes twice, parts are of different scenes, wavelengths, seeds or settings, or a map
+/// would have more than 2^31 photons.
 StoredPhotons merged_photons(std::span<const StoredPhotons> parts);
 
 /// Of each map, global and caustic.
