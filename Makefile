@@ -91,6 +91,8 @@ bench-cluster: setup
 # Parts, processes of MPI and engines, with death and slow networks: docs/cluster.md. What needs something that is not
 # here is skipped, and says why.
 test-cluster: configure
+	@scripts/install_packages.sh mpi
+	@cmake --preset release -D KAUSTIK_MPI=ON
 	@cmake --build --preset release
 	ctest --test-dir $(BUILD) --output-on-failure --label-regex cluster
 

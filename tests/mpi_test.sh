@@ -16,7 +16,7 @@ together() {
 }
 # The same in the background, of which $! is mpirun itself.
 together_meanwhile() { (exec mpirun --oversubscribe --bind-to none -np "$1" "$kaustik_mpi" "${@:2}") >out 2>&1 & }
-! ldd "$kaustik" | grep -q libmpi || fail "the plain program needs MPI"
+! grep -q libmpi <<<"$(ldd "$kaustik")" || fail "the plain program needs MPI"
 
 scene=$root/scenes/cornell_box/cornell_box.xml
 render=(render "$scene" --set film.width=32 --set film.height=32 --threads 1 --reproducible -q)
@@ -111,7 +111,7 @@ alone=(render cornell_box.xml --set film.width=32 --set film.height=32 --threads
 )
 cmp one.exr all.exr || fail "the bits are others with --broadcast-scene"
 [[ -z $(find copies -name "*.xml") ]] || fail "copies of the scene are left"
-! "$kaustik" render --help | grep -q broadcast || fail "the plain program has options of MPI"
+! grep -q broadcast <<<"$("$kaustik" render --help)" || fail "the plain program has options of MPI"
 
 # Time ends it between passes.
 together 2 "${render[@]}" --integrator path --time 2s --checkpoint time.kpt -o time.exr

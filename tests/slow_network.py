@@ -8,6 +8,7 @@ Usage: slow_network.py [--hosts 3] [--mbit 10] [--delay-ms 50] [--mtu 1500] -- C
 The command runs on the first host. It finds in its environment what mpirun needs to start processes on all of them:
 HOSTS (their addresses, with commas between them) and HOSTS_MPIRUN (options of Open MPI's mpirun).
 """
+import contextlib
 import argparse
 import fcntl
 import heapq
@@ -59,7 +60,8 @@ class Host:
     def close(self):
         pids = subprocess.run(["ip", "netns", "pids", self.name], capture_output=True, text=True, check=False).stdout
         for pid in pids.split():
-            os.kill(int(pid), 9)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(int(pid), 9)
         os.close(self.cable)
         subprocess.run(["ip", "netns", "del", self.name], check=False)
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The scripts of contrib/slurm with a real Slurm, which is started here for this test: an array of six parts, one task
 # requeued in its midst, the others preempted, and the dependent merge makes the picture of one render. Takes some
-# minutes. Exit code 77: Slurm is not there. Usage: slurm_test.sh PROGRAM
+# minutes. With MPI_PROGRAM, one picture by two tasks of a job, too. Exit code 77: Slurm is not there.
+# Usage: slurm_test.sh PROGRAM [MPI_PROGRAM]
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
-kaustik=$(realpath "$1")
+kaustik=$(realpath "$1") kaustik_mpi=${2:+$(realpath "$2")}
 source "$root/tests/support/script.sh"
 for program in munged slurmctld slurmd sbatch; do
   command -v "$program" >/dev/null || PATH=$PATH:/usr/sbin
@@ -95,3 +96,15 @@ went_on=$(grep -l "goes on: passes" scene.parts/log/part_*.txt | wc -l)
 "$kaustik" render scene.xml -q "${picture[@]}" -o whole.exr
 cmp whole.exr scene.parts/picture.exr || fail "the picture is not that of one render"
 echo "slurm: $went_on of 6 parts went on from checkpoints, and the picture has the bits of one render"
+
+# One picture by two tasks, requeued in its midst.
+[[ -n $kaustik_mpi ]] || exit 0
+export KAUSTIK_MPI=$kaustik_mpi KAUSTIK_CHECKPOINT=mpi.kpt
+job=$(sbatch --parsable --partition=high --nodes=1 --ntasks-per-node=2 --cpus-per-task=1 --output=mpi.log \
+  "$root/contrib/slurm/mpi.sbatch" scene.xml "${picture[@]}" --every 1s -o mpi.exr)
+until_true 900 "a checkpoint of MPI" test -s mpi.kpt
+scontrol requeue "$job"
+until_true 3000 "the job of MPI" is_done
+grep -q "goes on: passes" mpi.log || fail "MPI did not go on: $(cat mpi.log)"
+cmp whole.exr mpi.exr || fail "the picture of MPI is not that of one render"
+echo "slurm: two tasks of MPI went on from a checkpoint, and the picture has the bits of one render"

@@ -81,7 +81,7 @@ FileBroadcast::~FileBroadcast() {
 }
 
 std::string FileBroadcast::here(const std::string& path) const {
-  return fs::path(path).is_absolute() ? folder_ + path : path;
+  return fs::path(path).is_absolute() ? folder_ + whole_path(path) : path;
 }
 
 void FileBroadcast::send(Team& team, const std::set<std::string>& files) const {

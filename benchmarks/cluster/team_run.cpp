@@ -11,7 +11,6 @@ namespace {
 /// Passes that teach: epochs of 1, 1, 2, 4, … 128.
 constexpr uint64_t taught_passes = 256;
 /// As in render/session_team.cpp.
-constexpr double shortest_round_s = 5, longest_round_s = 300, soon_enough = 0.875;
 constexpr uint64_t most_taught_per_node = 4;
 /// As in apps/mpi/mpi_team.cpp.
 constexpr double piece_gb = 262144e-9;
@@ -122,7 +121,7 @@ uint64_t TeamRun::round(uint64_t most, double seconds, Loss loss) {
     uint32_t node;
     bool operator<(const Event& other) const { return s > other.s; }
   };
-  const std::vector<uint32_t> shares = pace_.shares(most, seconds);
+  const std::vector<uint32_t> shares = pace_.shares(most, seconds, longest_round_s);
   std::vector<uint32_t> to_do = shares;
   std::priority_queue<Event> events;
   const double begin_s = time_.seconds, order_s = broadcast_s(4e-9 * nodes_);
@@ -146,7 +145,7 @@ uint64_t TeamRun::round(uint64_t most, double seconds, Loss loss) {
     time_.lost_s[size_t(Loss::failures)] += time_.seconds - begin_s;
     return 0;
   }
-  pace_.doubt(std::min(longest_round_s, machines_.interval_s));
+  pace_.round_done(time_.seconds - begin_s);
   time_.lost_s[size_t(loss)] +=
       time_.seconds - begin_s - double(passes) * machines_.pass_s / nodes_;
   left_ -= passes;

@@ -14,8 +14,8 @@ namespace {
 using Shares = std::vector<uint32_t>;
 
 TEST(TeamPace, OneEachWhileNobodyIsKnown) {
-  EXPECT_EQ(TeamPace(3).shares(100, 60), (Shares{1, 1, 1}));
-  EXPECT_EQ(TeamPace(3).shares(2, 60), (Shares{1, 1, 0}));
+  EXPECT_EQ(TeamPace(3).shares(100, 60, 1e9), (Shares{1, 1, 1}));
+  EXPECT_EQ(TeamPace(3).shares(2, 60, 1e9), (Shares{1, 1, 0}));
   EXPECT_EQ(TeamPace(3).usual_pass_s(), 0);
 }
 
@@ -24,8 +24,8 @@ TEST(TeamPace, WhoIsTwiceAsFastGetsTwiceAsMany) {
   pace.add(0, 2, 2);
   pace.add(1, 1, 2);
   pace.add(2, 4, 4);
-  EXPECT_EQ(pace.shares(100, 4), (Shares{4, 2, 4}));
-  EXPECT_EQ(pace.shares(5, 4), (Shares{2, 1, 2}));
+  EXPECT_EQ(pace.shares(100, 4, 1e9), (Shares{4, 2, 4}));
+  EXPECT_EQ(pace.shares(5, 4, 1e9), (Shares{2, 1, 2}));
   EXPECT_EQ(pace.usual_pass_s(), 1);
   EXPECT_EQ(pace.fastest_pass_s(), 1);
 }
@@ -33,24 +33,68 @@ TEST(TeamPace, WhoIsTwiceAsFastGetsTwiceAsMany) {
 TEST(TeamPace, NoiseOfTheClockChangesNothing) {
   TeamPace pace(4);
   for (const uint32_t rank : {0, 1, 2, 3}) pace.add(rank, 8, 8 * (1 + 0.02 * rank));
-  EXPECT_EQ(pace.shares(1000, 8), (Shares{8, 8, 8, 8}));
+  EXPECT_EQ(pace.shares(1000, 8, 1e9), (Shares{8, 8, 8, 8}));
 }
 
+/// Rounds of ten seconds: one pass of the slow one costs the other nine times that.
 TEST(TeamPace, WhoIsTooSlowIsTriedAgain) {
+  TeamPace pace(2);
+  int tries = 0;
+  double waited_s = 0, all_s = 0;
+  for (int round = 0; round < 1000; ++round) {
+    const Shares shares = pace.shares(100, 10, 1e9);
+    const double round_s = std::max(1.0 * shares[0], 100.0 * shares[1]);
+    pace.add(0, shares[0], shares[0]);
+    pace.add(1, shares[1], 100.0 * shares[1]);
+    pace.round_done(round_s);
+    if (round == 0) continue;
+    tries += int(shares[1]);
+    all_s += round_s;
+    waited_s += round_s - shares[0];
+  }
+  EXPECT_GT(tries, 3);
+  EXPECT_LT(waited_s, 0.06 * all_s);
+}
+
+TEST(TeamPace, WhoIsFastAgainGetsItsShare) {
   TeamPace pace(2);
   pace.add(0, 10, 10);
   pace.add(1, 1, 100);
-  EXPECT_EQ(pace.shares(100, 10), (Shares{10, 0}));
-  for (int round = 0; round < 10 && pace.shares(100, 10)[1] == 0; ++round) pace.doubt(10);
-  EXPECT_GT(pace.shares(100, 10)[1], 0u);
+  pace.round_done(100);
+  for (int round = 0; round < 1000 && pace.shares(100, 10, 1e9)[1] == 0; ++round) {
+    pace.add(0, 10, 10);
+    pace.round_done(10);
+  }
+  for (int round = 0; round < 8; ++round) {
+    const Shares shares = pace.shares(100, 10, 1e9);
+    for (const uint32_t rank : {0, 1}) pace.add(rank, shares[rank], shares[rank]);
+    pace.round_done(10);
+  }
+  EXPECT_EQ(pace.shares(100, 10, 1e9), (Shares{10, 10}));
 }
 
-TEST(TeamPace, NobodyIsDoubtedForLackOfWork) {
+TEST(TeamPace, NobodyIsTriedWithoutTime) {
   TeamPace pace(2);
   pace.add(0, 10, 10);
-  pace.add(1, 5, 10);
-  pace.doubt(10);
-  EXPECT_EQ(pace.shares(100, 10), (Shares{10, 5}));
+  pace.add(1, 1, 100);
+  for (int round = 0; round < 1000; ++round) {
+    pace.round_done(10);
+    EXPECT_EQ(pace.shares(100, 10, 99), (Shares{10, 0}));
+    pace.add(0, 10, 10);
+  }
+  EXPECT_EQ(pace.shares(100, 10, 101), (Shares{10, 1}));
+  EXPECT_EQ(pace.shares(10, 10, 101), (Shares{9, 1}));
+}
+
+/// Passes that all take longer than a round keep their times.
+TEST(TeamPace, TimesStayThoseMeasured) {
+  TeamPace pace(2);
+  for (int round = 0; round < 20; ++round) {
+    for (const uint32_t rank : {0, 1}) pace.add(rank, 1, 100);
+    pace.round_done(100);
+    EXPECT_EQ(pace.shares(100, 10, 1e9), (Shares{1, 0}));
+    EXPECT_EQ(pace.fastest_pass_s(), 100);
+  }
 }
 
 TEST(TeamPace, RoundsGrow) {
@@ -68,7 +112,7 @@ TEST(TeamPace, ThereIsAlwaysWork) {
   TeamPace pace(2);
   pace.add(0, 1, 100);
   pace.add(1, 1, 90);
-  EXPECT_EQ(pace.shares(100, 0), (Shares{0, 1}));
+  EXPECT_EQ(pace.shares(100, 0, 1e9), (Shares{0, 1}));
 }
 
 /// No other shares of as many passes end sooner than by what one pass of somebody takes.
@@ -82,7 +126,7 @@ TEST(TeamPace, AllAreDoneAtAboutTheSameTime) {
     for (uint32_t rank = 0; rank < members; ++rank)
       pace.add(rank, 1, each[rank] = pass_s(generator));
     const uint64_t most = 1 + generator() % 1000;
-    const Shares shares = pace.shares(most, 1e6);
+    const Shares shares = pace.shares(most, 1e6, 1e9);
     ASSERT_EQ(std::accumulate(shares.begin(), shares.end(), uint64_t{0}), most);
     double longest_s = 0, speed = 0;
     for (uint32_t rank = 0; rank < members; ++rank) {

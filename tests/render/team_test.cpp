@@ -157,6 +157,40 @@ TEST_F(TeamTest, WhoDiesTakesNoMoreThanTheInterval) {
     EXPECT_LE(moments[i] - moments[i - 1], interval_s + pass_s) << i;
 }
 
+/// Every other pass takes nine times as long, and is twice as bright: none is left out for that.
+TEST_F(TeamTest, TimeEndsItWithoutBias) {
+  const auto scene = scene_with(film_of(64, 4), room);
+  LocalTeam(3).run([&](const std::shared_ptr<Team>& member) {
+    CountedClock clock;
+    uint32_t index = 0;
+    Script script;
+    script.prepare = [&](const Pass& pass, SplatBuffer&) { index = pass.index; };
+    script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
+      clock.advance(index % 2 == 0 ? 0.5 : 4.5);
+      sink.add(Component::direct, Spectrum(index % 2 == 0 ? 1 : 2));
+    };
+    SessionSettings settings;
+    settings.threads = 1;
+    settings.samples_per_pass = 4;
+    settings.clock = clock.reader();
+    settings.team = member;
+    settings.seconds = 60;
+    const Scripted integrator(script);
+    Session session(*scene, integrator, settings);
+    const SessionReport report = session.run();
+    if (!member->is_led_here()) return;
+    EXPECT_EQ(report.end, SessionEnd::time);
+    const PassSet passes = session.film().passes();
+    ASSERT_EQ(passes.ranges().size(), 1u);
+    EXPECT_EQ(passes.ranges()[0].begin, 0u);
+    const uint32_t count = passes.count();
+    EXPECT_GT(count, 15u);
+    EXPECT_LT(clock.reader()(), 66);
+    const float mean = float(count + count / 2) / float(count);
+    EXPECT_FLOAT_EQ(session.film().image().at(0, 0, 0), mean);
+  });
+}
+
 TEST_F(TeamTest, OneWhoStopsStopsAll) {
   for (const uint32_t who : {0, 1, 2}) {
     Outcome outcome;

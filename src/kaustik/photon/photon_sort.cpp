@@ -110,7 +110,7 @@ void PhotonSort::drain(size_t at_a_time,
     return;
   }
   if (!records_.empty()) keep_run();
-  records_ = {};
+  records_ = std::vector<PhotonRecord>();  // `{}` would keep its memory
   const size_t ahead = std::clamp(memory_.photons / runs_.size(), size_t{1}, most_records_ahead);
   std::vector<RunReader> readers;
   for (const Run& run : runs_) readers.emplace_back(*file_, run, order_, ahead);

@@ -1,4 +1,5 @@
 #include "kaustik/render/job.h"
+#include "kaustik/render/team_pace.h"
 
 #include <fmt/format.h>
 
@@ -257,7 +258,10 @@ void Job::render() {
   make_session(*run);
   const std::string checkpoint = is_follower() ? "" : settings_.checkpoint;
   const bool keeps = !checkpoint.empty();
-  CheckpointKeeper keeper(checkpoint, settings_.owner, settings_.every_s, result_.record,
+  // Else a film that was added up would often come too early for a checkpoint.
+  const double every_s =
+      settings_.session.team ? soon_enough * settings_.every_s : settings_.every_s;
+  CheckpointKeeper keeper(checkpoint, settings_.owner, every_s, result_.record,
                           *run->prepared.integrator, listener_.messages.warning);
   Session& session = *run->session;
   result_.report = session.run(stop_.get_token(), listener_.progress, [&] {

@@ -13,16 +13,12 @@
 namespace kaustik {
 namespace {
 
-/// What a round is to take about. Members wait for one another at its end.
-constexpr double shortest_round_s = 5, longest_round_s = 300;
 /// In a round, so that its lists stay short.
 constexpr uint64_t most_passes_per_member = 1024;
 /// The same while passes teach: that is kept until the end of the round.
 constexpr uint64_t most_taught_per_member = 4;
 /// Adding up takes no more than this share of the time.
 constexpr double most_adding = 0.05;
-/// Of the time until films are added up: a round of what is left would be short.
-constexpr double soon_enough = 0.875;
 constexpr uint32_t never = std::numeric_limits<uint32_t>::max();
 
 }  // namespace
@@ -96,6 +92,7 @@ void Session::TeamRun::take_reports(const std::vector<std::vector<uint8_t>>& rep
     }
     std::ranges::move(report.passes, std::back_inserter(done));
   }
+  pace_.round_done(monitor_.seconds_since(round_begin_s_));
   std::ranges::sort(done, {}, &TeamReport::DonePass::pass);
   for (const TeamReport::DonePass& of_pass : done) {
     rendered_.add({of_pass.pass, of_pass.pass + 1});
@@ -149,8 +146,8 @@ std::optional<SessionEnd> Session::TeamRun::end_before(uint32_t first) const {
 
 TeamOrder Session::TeamRun::next_order() {
   const uint32_t first = rendered_.first_missing(session_.settings_.first_pass);
-  const bool is_stopped = is_stopped_ || stop_.stop_requested();
-  const std::optional<SessionEnd> end = is_stopped ? SessionEnd::cancelled : end_before(first);
+  std::optional<SessionEnd> end = end_before(first);
+  if (!end && (is_stopped_ || stop_.stop_requested())) end = SessionEnd::cancelled;
   const bool looks = session_.settings_.error && rendered_.count() >= replicate_count &&
                      std::has_single_bit(rendered_.count());
   if (elsewhere_ > 0 && (end || looks || is_time_to_add_up()))
@@ -192,8 +189,10 @@ TeamOrder Session::TeamRun::next_round(uint32_t first) {
   const uint32_t end = std::min(is_learning ? lessons_end_ : pass_limit,
                                 session_.pass_count_ > 0 ? session_.planned().end : pass_limit);
   most = std::min<uint64_t>(most, rendered_.missing({first, end}));
-  order.shares = pace_.shares(most, next_round_s());
-  pace_.doubt(std::min(longest_round_s, time_to_add_up()));
+  round_begin_s_ = monitor_.now();
+  const std::optional<double> limit = session_.settings_.seconds;
+  const double rest_s = limit ? *limit - monitor_.elapsed() : longest_round_s;
+  order.shares = pace_.shares(most, next_round_s(), std::min(rest_s, longest_round_s));
   most = std::accumulate(order.shares.begin(), order.shares.end(), uint64_t{0});
   for (uint32_t pass = first; pass < end && order.passes.count() < most;
        pass = rendered_.first_missing(pass + 1))

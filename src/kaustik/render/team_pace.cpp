@@ -9,6 +9,8 @@ namespace {
 
 /// A clock may show no time at all.
 constexpr double shortest_s = 1e-6;
+/// Share of the time that may go into waiting for those that are tried again.
+constexpr double most_waiting = 0.05;
 /// More than anybody waits for.
 constexpr double most_passes = 1e6;
 
@@ -47,13 +49,18 @@ std::vector<uint32_t> shares_of(uint64_t passes, double seconds,
 
 void TeamPace::add(uint32_t rank, uint32_t passes, double seconds) {
   if (passes == 0) return;
-  seconds_[rank] = 0.5 * seconds_[rank] + seconds;
-  passes_[rank] = 0.5 * passes_[rank] + passes;
+  // What was before it was idle is old.
+  const double kept = idle_s_[rank] > 0 ? 0 : 0.5;
+  seconds_[rank] = kept * seconds_[rank] + seconds;
+  passes_[rank] = kept * passes_[rank] + passes;
+  has_worked_[rank] = true;
 }
 
-void TeamPace::doubt(double seconds) {
-  for (size_t rank = 0; rank < seconds_.size(); ++rank)
-    if (0.5 * seconds_[rank] > seconds * passes_[rank]) seconds_[rank] *= 0.5;
+void TeamPace::round_done(double seconds) {
+  for (double& idle_s : idle_s_) idle_s += seconds;
+  for (size_t rank = 0; rank < idle_s_.size(); ++rank)
+    if (has_worked_[rank]) idle_s_[rank] = 0;
+  has_worked_.assign(has_worked_.size(), false);
 }
 
 std::vector<double> TeamPace::pass_s() const {
@@ -90,16 +97,29 @@ double TeamPace::fastest_pass_s() const {
   return all.empty() ? 0 : *std::ranges::min_element(all);
 }
 
-std::vector<uint32_t> TeamPace::shares(uint64_t most, double seconds) const {
+std::vector<uint32_t> TeamPace::shares(uint64_t most, double seconds, double longest_s) const {
   const double usual_s = usual_pass_s();
   std::vector<double> pass_s = this->pass_s();
   std::ranges::replace(pass_s, 0.0, usual_s > 0 ? usual_s : 1.0);
   std::vector<uint32_t> shares = finished_within(usual_s > 0 ? seconds : 1, pass_s);
   const uint64_t wanted = std::clamp<uint64_t>(sum(shares), 1, most);
-  if (sum(shares) == wanted) return shares;
   // Nobody is done with more than that many by then.
-  return shares_of(
-      wanted, double(wanted + 1) * std::max(seconds, *std::ranges::max_element(pass_s)), pass_s);
+  if (sum(shares) != wanted)
+    shares = shares_of(wanted,
+                       double(wanted + 1) * std::max(seconds, *std::ranges::max_element(pass_s)),
+                       pass_s);
+  try_again(shares, most, longest_s);
+  return shares;
+}
+
+void TeamPace::try_again(std::vector<uint32_t>& shares, uint64_t most, double longest_s) const {
+  const std::vector<double> pass_s = this->pass_s();
+  for (size_t rank = 0; rank < shares.size(); ++rank) {
+    if (shares[rank] > 0 || pass_s[rank] > longest_s) continue;
+    if (most_waiting * idle_s_[rank] < pass_s[rank] || idle_s_[rank] == 0) continue;
+    if (sum(shares) == most) --*std::ranges::max_element(shares);
+    ++shares[rank];
+  }
 }
 
 }  // namespace kaustik

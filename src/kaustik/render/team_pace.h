@@ -4,21 +4,28 @@
 
 namespace kaustik {
 
+/// What a round of passes is to take about. Members wait for one another at its end.
+inline constexpr double shortest_round_s = 5, longest_round_s = 300;
+/// Of the time until a team's films are added up: a round of what is left would be short.
+inline constexpr double soon_enough = 0.875;
+
 /// How fast the members of a team are, as their last passes have told the leader, and how many
 /// passes each gets in a round, so that all are done at about the same time.
 class TeamPace {
  public:
-  explicit TeamPace(uint32_t members) : seconds_(members, 0), passes_(members, 0) {}
+  explicit TeamPace(uint32_t members)
+      : seconds_(members, 0), passes_(members, 0), idle_s_(members, 0), has_worked_(members, false) {}
 
   /// A member's passes of a round, and the seconds that they took together; rounds before count
-  /// half as much each.
+  /// half as much each, unless it was idle since.
   void add(uint32_t rank, uint32_t passes, double seconds);
-  /// Who is too slow for even a pass in a round of so many seconds gets the benefit of the doubt:
-  /// it counts as twice as fast, and so is tried again some day.
-  void doubt(double seconds);
+  /// A round has taken so many seconds: who had no pass in it was idle.
+  void round_done(double seconds);
   /// How many passes each member gets, by rank: `most` together, or fewer, so that each takes about
   /// `seconds`. One each while nobody has been measured; of one pass at least the fastest gets one.
-  std::vector<uint32_t> shares(uint64_t most, double seconds) const;
+  /// Who is too slow for a pass gets one now and then, as it may have become faster: so rarely that
+  /// waiting for it takes little of the time, and only if it would be done within `longest_s`.
+  std::vector<uint32_t> shares(uint64_t most, double seconds, double longest_s) const;
   /// What a pass takes the one in the middle, s; 0: not known.
   double usual_pass_s() const;
   /// The same of the fastest.
@@ -33,8 +40,12 @@ class TeamPace {
   std::vector<double> pass_s() const;
   /// Of those that are known.
   std::vector<double> known() const;
+  void try_again(std::vector<uint32_t>& shares, uint64_t most, double longest_s) const;
 
-  std::vector<double> seconds_, passes_;  ///< by rank
+  // By rank
+  std::vector<double> seconds_, passes_;
+  std::vector<double> idle_s_;   ///< since its last pass
+  std::vector<bool> has_worked_;  ///< in this round
 };
 
 }  // namespace kaustik
