@@ -64,6 +64,7 @@ void expect_same_bits(const Film& a, const Film& b) {
 RenderRecord little_record() {
   RenderRecord record;
   record.program = "1.2.3";
+  record.instruction_sets = {"avx2", "avx512"};
   record.recipe.scene = "scene.xml";
   record.recipe.folder = "/somewhere";
   record.recipe.definitions = {{"size", "24"}, {"name", ""}};
@@ -143,6 +144,7 @@ TEST_F(CheckpointFile, HoldsEverything) {
   EXPECT_TRUE(is_checkpoint(path()));
   const Checkpoint read = read_checkpoint(path());
   EXPECT_EQ(read.record.program, record.program);
+  EXPECT_EQ(read.record.instruction_sets, record.instruction_sets);
   EXPECT_EQ(read.record.recipe.scene, record.recipe.scene);
   EXPECT_EQ(read.record.recipe.folder, record.recipe.folder);
   EXPECT_EQ(read.record.recipe.camera, record.recipe.camera);
@@ -334,7 +336,7 @@ TEST_F(CheckpointFile, ForeignFilesAreRefused) {
   // Its lessons are laid out otherwise.
   other[12] = 7;
   write(other);
-  expect_refused("has version 7, this program reads version 17");
+  expect_refused("has version 7, this program reads version 18");
 }
 
 TEST_F(CheckpointFile, TruncatedAndDamagedFilesAreRefused) {
@@ -453,15 +455,30 @@ class LittleMemory {
   rlimit before_;
 };
 
+Film noisy_film(int side) {
+  FilmSettings settings;
+  settings.size = settings.crop_size = {side, side};
+  Film film(settings, {ComponentSet::all()});
+  std::mt19937 generator(5);
+  std::exponential_distribution<float> light(1);
+  std::vector<PassPixel> pixels(film.pixel_count());
+  for (PassPixel& pixel : pixels)
+    for (auto& radiance : pixel.radiance)
+      radiance = {light(generator), light(generator), light(generator), 0};
+  film.add_pass(pass_of(pixels, settings.size), 0, 1);
+  return film;
+}
+
 /// Then the render goes on, or writes its picture: an Error, and nothing is left behind.
 TEST_F(CheckpointFile, LittleMemoryIsAnError) {
   if (slow_build) GTEST_SKIP() << "sanitizers take memory of their own";
-  FilmSettings settings;
-  settings.size = settings.crop_size = {500, 500};
-  const Film film(settings, {ComponentSet::all()});
+  const Film film = noisy_film(300);
+  // About that of the file, too.
+  const size_t size = film.bytes();
+  ASSERT_GT(size, size_t{8} << 20);
   const auto write = [&] { write_checkpoint(path(), little_record(), film); };
   {
-    const LittleMemory little(2 << 20);
+    const LittleMemory little(size / 2);
     try {
       write();
       ADD_FAILURE() << "was written";
@@ -472,11 +489,11 @@ TEST_F(CheckpointFile, LittleMemoryIsAnError) {
   }
   EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(path()).parent_path()));
   {
-    // The file, 11.7 MB, is held in memory once.
-    const LittleMemory enough(16 << 20);
+    // The file is held in memory once.
+    const LittleMemory enough(size + size / 2);
     write();
   }
-  EXPECT_GT(bytes().size(), size_t{11} << 20);
+  EXPECT_GT(bytes().size(), size * 3 / 4);
 }
 
 constexpr BinaryFileKind sums_kind = {
@@ -494,8 +511,8 @@ TEST_F(CheckpointFile, PackedSumsComeBack) {
   BinaryWriter writer(sums_kind);
   put_sums(writer, sums);
   writer.write_to(path());
-  // Magic, byte order, version and checksum beside the sums.
-  EXPECT_EQ(bytes().size(), packed_size(sums) + 24);
+  // Half of the bits, as they are shifted, and a byte that tells how many.
+  EXPECT_LT(bytes().size(), 10 * sums.size());
   BinaryReader reader(sums_kind, path());
   EXPECT_TRUE(get_sums(reader, sums.size()) == sums);
   reader.expect_end();

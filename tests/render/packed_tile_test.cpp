@@ -172,14 +172,63 @@ TEST(PackedTile, OrderMakesNoDifference) {
       add(backward, packer, passes[passes.size() - 1 - i]);
       add(i % 2 == 0 ? even : odd, packer, passes[i]);
     }
-    packer.begin(odd);
-    for (size_t line = 0; line < lines; ++line) packer.add_line_of(even);
-    packer.end(odd);
+    packer.add_packed(odd, even.packed());
     for (size_t line = 0; line < lines; ++line) {
       EXPECT_TRUE(read(backward, line) == read(forward, line));
       EXPECT_TRUE(read(odd, line) == read(forward, line));
     }
+    const auto repacked = [&](const PackedTile& tile) {
+      const auto bytes = packer.repacked(tile);
+      return std::vector<uint8_t>(bytes.begin(), bytes.end());
+    };
+    const std::vector<uint8_t> bytes = repacked(forward);
+    EXPECT_TRUE(is_packed_tile(bytes, lines));
+    EXPECT_TRUE(repacked(backward) == bytes);
+    EXPECT_TRUE(repacked(odd) == bytes);
   }
+}
+
+/// Bytes that are damaged, and still look like a tile, are a tile.
+TEST(PackedTile, DamagedBytesAreRefusedOrSound) {
+  int refused = 0, sound = 0;
+  for (const Kind& kind : kinds()) {
+    PackedTile tile;
+    TilePacker packer(lines);
+    for (const Floats& values : passes_of(kind, 3)) add(tile, packer, values);
+    const auto span = packer.repacked(tile);
+    const std::vector<uint8_t> whole(span.begin(), span.end());
+    if (whole.empty()) continue;
+    std::mt19937 random(3);
+    for (int round = 0; round < 400; ++round) {
+      std::vector<uint8_t> bytes = whole;
+      // Mostly headers, where the most depends on.
+      const size_t most = random() % 2 ? line_header_bytes * lines + 8 : bytes.size();
+      bytes[random() % std::min(most, bytes.size())] ^= uint8_t(1 + random() % 255);
+      if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+      if (!is_packed_tile(bytes, lines)) {
+        ++refused;
+        continue;
+      }
+      ++sound;
+      // Exactly as many as may be read.
+      const size_t size = bytes.size();
+      bytes.resize(size + word_slack);
+      bytes.shrink_to_fit();
+      PackedTile added = tile, alone;
+      packer.add_packed(added, std::span(bytes).first(size));
+      packer.add_packed(alone, std::span(bytes).first(size));
+      for (size_t line = 0; line < lines; ++line) {
+        const auto sums = read(added, line), one = read(tile, line), other = read(alone, line);
+        for (size_t i = 0; i < pixels; ++i) {
+          // Those that are cut are more than they show.
+          const bool is_cut = std::max({one[i], -one[i], other[i], -other[i]}) > fixed_limit / 2;
+          ASSERT_TRUE(is_cut || sums[i] == one[i] + other[i]) << kind.name << " " << i;
+        }
+      }
+    }
+  }
+  EXPECT_GT(refused, 400);
+  EXPECT_GT(sound, 400);
 }
 
 TEST(PackedTile, WhatWasReadCanBeAddedAgain) {

@@ -74,9 +74,16 @@ TEST(Regions, PartsAreMergedInAnyOrder) {
   const Film b = refined_film(*integrator, refined_settings(2, {{elsewhere, 4}}, 2));
   const Film plain = refined_film(*integrator, refined_settings(4));
   Checkpoint ab{record_for(2), a, {}}, ba{record_for(2, 2), b, {}};
-  merge_checkpoint(ab, "a.kpt", {record_for(2, 2), b, {}}, "b.kpt");
-  merge_checkpoint(ba, "b.kpt", {record_for(2), a, {}}, "a.kpt");
+  ab.record.instruction_sets = {"one"};
+  ba.record.instruction_sets = {"other"};
+  RenderRecord of_other = record_for(2, 2), of_one = record_for(2);
+  of_other.instruction_sets = {"other"};
+  of_one.instruction_sets = {"one"};
+  merge_checkpoint(ab, "a.kpt", {of_other, b, {}}, "b.kpt");
+  merge_checkpoint(ba, "b.kpt", {of_one, a, {}}, "a.kpt");
   EXPECT_EQ(film_bytes(ab.film), film_bytes(ba.film));
+  EXPECT_EQ(ab.record.instruction_sets, (std::set<std::string>{"one", "other"}));
+  EXPECT_EQ(ba.record.instruction_sets, ab.record.instruction_sets);
   const TemporaryFolder folder;
   write_checkpoint(folder.path("b.kpt"), record_for(2, 2), b);
   Checkpoint by_rows{record_for(2), a, {}};

@@ -141,12 +141,12 @@ void BinaryReader::load_from_file(size_t count) {
   const size_t kept = rest_.size();
   const auto more = size_t(std::min<uint64_t>(unloaded_, std::max(count - kept, piece_bytes)));
   if (kept > 0) std::memmove(bytes_.data(), rest_.data(), kept);
-  bytes_.resize(kept + more);
-  if (file_->read(unloaded_begin_, std::span(bytes_).subspan(kept)) < more)
+  if (bytes_.size() < kept + more) bytes_.resize(kept + more);
+  if (file_->read(unloaded_begin_, std::span(bytes_).subspan(kept, more)) < more)
     damaged("it is truncated");
   unloaded_ -= more;
   unloaded_begin_ += more;
-  rest_ = bytes_;
+  rest_ = std::span(bytes_).first(kept + more);
 }
 
 void BinaryReader::skip_to(uint64_t position) {

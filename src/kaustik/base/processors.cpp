@@ -30,6 +30,20 @@ int bound_processors() {
 
 }  // namespace
 
+std::string instruction_set() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "avx512";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "avx2";
+  if (__builtin_cpu_supports("avx")) return "avx";
+  return "sse4.2";
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+  return "other";
+#endif
+}
+
 int Processors::usable() const {
   const int by_quota = quota < double(bound) ? int(std::ceil(quota)) : bound;
   return std::max(1, by_quota);

@@ -4,6 +4,11 @@
 
 namespace kaustik {
 
+/// The most of this machine's instructions that the libraries choose by: "avx512", "avx2", "avx",
+/// "sse4.2"; of other kinds of processors "aarch64" or
+/// "other".
+std::string instruction_set();
+
 /// The processors of the machine, and how many of them this process may keep busy.
 struct Processors {
   int of_machine = 1;  ///< that run

@@ -26,7 +26,7 @@ namespace {
 
 constexpr BinaryFileKind photon_map_kind = {
     {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'},
-    7,  // the layouts of Photon and its tree are part of the file's
+    8,  // the layouts of Photon and its tree are part of the file's
     "photon map",
     "give a .kpm file, of photons that Kaustik has traced in a scene",
     "trace them again with this version of Kaustik"};

@@ -16,7 +16,7 @@ namespace kaustik {
 namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {{0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-                                            17,
+                                            18,
                                             "checkpoint",
                                             "give a checkpoint (.kpt) that a render has written",
                                             "render again with this program"};
@@ -185,6 +185,7 @@ bool is_valid(const PictureFrame& frame, const Vec2i& size) {
 RenderRecord get_record(BinaryReader& reader) {
   RenderRecord record;
   record.program = reader.get_text();
+  for (std::string& set : get_texts(reader)) record.instruction_sets.insert(std::move(set));
   record.recipe = get_recipe(reader);
   record.plan = get_plan(reader);
   record.outputs = get_outputs(reader);
@@ -196,6 +197,7 @@ RenderRecord get_record(BinaryReader& reader) {
 void put_checkpoint(BinaryWriter& writer, const RenderRecord& record, const Film& film,
                     const Lessons& lessons) {
   writer.put_text(record.program);
+  put_texts(writer, {record.instruction_sets.begin(), record.instruction_sets.end()});
   put_recipe(writer, record.recipe);
   put_plan(writer, record.plan);
   put_outputs(writer, record.outputs);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +66,8 @@ struct ViewFacts {
 /// All that is known of a render beside its sums.
 struct RenderRecord {
   std::string program;  ///< version
+  /// Of the machines that have rendered passes. Of several, passes may differ in their last bits.
+  std::set<std::string> instruction_sets = {};
   RenderRecipe recipe;
   StopPlan plan;
   OutputPlan outputs;

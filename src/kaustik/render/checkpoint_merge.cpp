@@ -105,6 +105,7 @@ double to_exact_part(double seconds) {
 /// difference. Parts that were to write different pictures leave open what the whole is to write.
 RenderRecord merged_record(RenderRecord first, const RenderRecord& other) {
   if (first.outputs.files != other.outputs.files) first.outputs.files.clear();
+  first.instruction_sets.insert(other.instruction_sets.begin(), other.instruction_sets.end());
   first.seconds = to_exact_part(first.seconds) + to_exact_part(other.seconds);
   return first;
 }

@@ -238,12 +238,8 @@ void Film::add(const Film& other) {
          twice_in_regions(other).empty());
   parallel_blocks(tiles_.count(), tiles_per_block, [&](size_t begin, size_t end, size_t) {
     TilePacker packer(numbers_.count);
-    for (size_t tile = begin; tile < end; ++tile) {
-      packer.begin(sums_[tile]);
-      for (size_t number = 0; number < numbers_.count; ++number)
-        packer.add_line_of(other.sums_[tile]);
-      packer.end(sums_[tile]);
-    }
+    for (size_t tile = begin; tile < end; ++tile)
+      packer.add_packed(sums_[tile], other.sums_[tile].packed());
   });
   for (size_t r = 0; r < replicate_count; ++r)
     add_to(mean_luminances_[r], other.mean_luminances_[r]);

@@ -208,11 +208,10 @@ class Film {
   Film(Vec2i size, const FilmLayers& layers);
   std::vector<std::string> channel_names(bool with_layers) const;
   /// Calls body(sums) with all sums of each row of pixels, [x][number], from the top on.
-  template <typename Body>
-  void for_rows(const Body& body) const;
   /// All after the head but regions.
   void add_content(const FilmHead& head, BinaryReader& reader);
-  void add_rows(BinaryReader& reader);
+  void add_packed_tiles(BinaryReader& reader);
+  void write_packed_tiles(BinaryWriter& writer) const;
   void add_region(const FilmRegion& region);
   void write_regions(BinaryWriter& writer) const;
   /// Of a film of this size and these layers.

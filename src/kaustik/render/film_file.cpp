@@ -1,5 +1,6 @@
 // A film as part of a checkpoint: docs/reference/checkpoint_file.md.
 #include <algorithm>
+#include <atomic>
 
 #include "kaustik/base/binary_file.h"
 #include "kaustik/base/parallel.h"
@@ -9,15 +10,28 @@
 namespace kaustik {
 namespace {
 
-/// That one thread adds, one after the other, with the same buffers.
-constexpr size_t tiles_per_reading = 8;
+/// That are packed or added side by side, and that one thread does, one after the other, with the
+/// same buffers.
+constexpr size_t tiles_at_a_time = 32, tiles_per_thread = 8;
 
-/// Where the next sum of each pixel of a tile begins.
-using PackedPixels = std::array<const uint8_t*, PictureTiles::pixels>;
+/// Bytes of a file with some that may be read behind them.
+class PaddedBytes {
+ public:
+  explicit PaddedBytes(size_t behind) : behind_(behind) {}
+  /// The next ones of the file, which are still to be skipped. Until the reader is asked again.
+  const uint8_t* of(BinaryReader& reader, uint64_t count) {
+    reader.need(count, 1);
+    const auto bytes = reader.bytes_ahead(count + behind_);
+    if (bytes.size() >= count + behind_) return bytes.data();
+    copy_.assign(bytes.begin(), bytes.begin() + std::ptrdiff_t(count));
+    copy_.resize(count + behind_);
+    return copy_.data();
+  }
 
-bool are_zero(const PackedPixels& sums) {
-  return std::ranges::all_of(sums, [](const uint8_t* sum) { return *sum == packed_zero; });
-}
+ private:
+  size_t behind_;
+  std::vector<uint8_t> copy_;
+};
 
 void put_passes(BinaryWriter& writer, const PassSet& passes) {
   writer.put(uint64_t(passes.ranges().size()));
@@ -80,18 +94,6 @@ Vec2i get_size(BinaryReader& reader) {
 
 }  // namespace
 
-template <typename Body>
-void Film::for_rows(const Body& body) const {
-  std::vector<Fixed> row(size_t(size_.x) * numbers_.count);
-  for (int y = 0; y < size_.y; ++y) {
-    for (int x = 0; x < size_.x; x += PictureTiles::side)
-      sums_[tiles_.tile_at(x, y)].read_pixels(numbers_.count, PictureTiles::place_of(x, y),
-                                              size_t(std::min(PictureTiles::side, size_.x - x)),
-                                              row.data() + size_t(x) * numbers_.count);
-    body(row);
-  }
-}
-
 void Film::write(BinaryWriter& writer) const {
   writer.put(int32_t(size_.x));
   writer.put(int32_t(size_.y));
@@ -99,11 +101,7 @@ void Film::write(BinaryWriter& writer) const {
   writer.put(sample_count_);
   put_passes(writer, passes_);
   put_sums(writer, mean_luminances_);
-  // Growing bit by bit would take twice the memory at a time.
-  uint64_t size = 0;
-  for_rows([&](const std::vector<Fixed>& row) { size += packed_size(row); });
-  writer.reserve(size);
-  for_rows([&](const std::vector<Fixed>& row) { put_sums(writer, row); });
+  write_packed_tiles(writer);
   if (!regions_.empty()) write_regions(writer);
 }
 
@@ -139,7 +137,7 @@ PassSet Film::add(const FilmHead& head, BinaryReader& reader) {
 
 void Film::add_content(const FilmHead& head, BinaryReader& reader) {
   const std::vector<Fixed> replicates = get_sums(reader, replicate_count);
-  add_rows(reader);
+  add_packed_tiles(reader);
   for (size_t r = 0; r < replicate_count; ++r) add_to(mean_luminances_[r], replicates[r]);
   passes_.add(head.passes);
   sample_count_ += head.samples_per_pixel;
@@ -197,40 +195,48 @@ std::vector<FilmRegion> Film::read_regions(BinaryReader& reader) const {
   return regions;
 }
 
-void Film::add_rows(BinaryReader& reader) {
-  reader.need(pixel_count() * numbers_.count, 1);
-  sums_.resize(tiles_.count());
-  const size_t across = tiles_.tile_at(0, PictureTiles::side);
-  PackedSums of_pixels(numbers_.count);
-  const std::vector<uint8_t> zeros(numbers_.count + most_packed, packed_zero);
-  for (size_t first = 0; first < tiles_.count(); first += across) {
-    const int y0 = int(first / across) * PictureTiles::side;
-    const auto rows = size_t(std::min(PictureTiles::side, size_.y - y0));
-    of_pixels.read(reader, rows * size_t(size_.x));
-    parallel_blocks(across, tiles_per_reading, [&](size_t begin, size_t end, size_t) {
+void Film::write_packed_tiles(BinaryWriter& writer) const {
+  // Growing bit by bit would take twice the memory at a time.
+  uint64_t size = sizeof(uint32_t) * (tiles_.count() + 1);
+  for (const PackedTile& tile : sums_) size += tile.packed().size();
+  writer.reserve(size);
+  std::vector<std::vector<uint8_t>> packed;
+  for (size_t first = 0; first < tiles_.count(); first += packed.size()) {
+    packed.resize(std::min(tiles_at_a_time, tiles_.count() - first));
+    parallel_blocks(packed.size(), tiles_per_thread, [&](size_t begin, size_t end, size_t) {
       TilePacker packer(numbers_.count);
-      for (size_t tile = first + begin; tile < first + end; ++tile) {
-        PackedPixels packed;
-        packed.fill(zeros.data());
-        tiles_.for_pixels_of(tile, [&](int x, int y, size_t place) {
-          packed[place] = of_pixels.list(size_t(y - y0) * size_t(size_.x) + size_t(x));
-        });
-        packer.begin(sums_[tile]);
-        for (size_t number = 0; number < numbers_.count; ++number) {
-          // Such are the replicates that a part has no pass of.
-          if (are_zero(packed)) {
-            for (const uint8_t*& sum : packed) ++sum;
-            packer.keep();
-            continue;
-          }
-          std::array<Fixed, PictureTiles::pixels> line;
-          for (size_t place = 0; place < line.size(); ++place)
-            line[place] = take_sum(packed[place]);
-          packer.add(line);
-        }
-        packer.end(sums_[tile]);
+      for (size_t i = begin; i < end; ++i) {
+        const auto bytes = packer.repacked(sums_[first + i]);
+        packed[i].assign(bytes.begin(), bytes.end());
       }
     });
+    for (const std::vector<uint8_t>& tile : packed) writer.put(uint32_t(tile.size()));
+    for (const std::vector<uint8_t>& tile : packed) writer.put_bytes(tile.data(), tile.size());
+  }
+}
+
+void Film::add_packed_tiles(BinaryReader& reader) {
+  reader.need(tiles_.count(), sizeof(uint32_t));
+  sums_.resize(tiles_.count());
+  PaddedBytes bytes(word_slack);
+  for (size_t first = 0; first < tiles_.count(); first += tiles_at_a_time) {
+    const size_t count = std::min(tiles_at_a_time, tiles_.count() - first);
+    std::vector<uint64_t> ends{0};
+    for (const uint32_t size : reader.get_array<uint32_t>(count)) ends.push_back(ends.back() + size);
+    const uint8_t* packed = bytes.of(reader, ends.back());
+    std::atomic<bool> is_damaged = false;
+    parallel_blocks(count, tiles_per_thread, [&](size_t begin, size_t end, size_t) {
+      TilePacker packer(numbers_.count);
+      for (size_t i = begin; i < end; ++i) {
+        const std::span tile(packed + ends[i], ends[i + 1] - ends[i]);
+        if (is_packed_tile(tile, numbers_.count))
+          packer.add_packed(sums_[first + i], tile);
+        else
+          is_damaged = true;
+      }
+    });
+    if (is_damaged) reader.damaged("the sums of a tile in it are not valid");
+    reader.skip(ends.back());
   }
 }
 

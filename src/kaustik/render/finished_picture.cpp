@@ -35,6 +35,9 @@ void set_metadata(Image& image, const RenderRecord& record, const PictureFacts& 
                                    image.height(), f.x, f.y, f.width, f.height));
   if (facts.incomplete_pass)
     image.set_metadata(incomplete_key, std::string("ended within the first pass"));
+  if (record.instruction_sets.size() > 1)
+    image.set_metadata("instruction_sets",
+                       fmt::format("{}", fmt::join(record.instruction_sets, ", ")));
   if (!record.outputs.reproducible) image.set_metadata("render_seconds", record.seconds);
 }
 

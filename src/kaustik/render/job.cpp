@@ -1,5 +1,4 @@
 #include "kaustik/render/job.h"
-#include "kaustik/render/team_pace.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +9,12 @@
 
 #include "kaustik/base/bytes.h"
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/processors.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/render/preview.h"
 #include "kaustik/render/resume.h"
+#include "kaustik/render/team_pace.h"
 #include "kaustik/scene/part_keys.h"
 
 namespace kaustik {
@@ -219,6 +220,7 @@ void Job::make_session(Run& run) {
   settings_.begun.reset();
   RenderRecord& record = result_.record;
   record = settings_.record;
+  record.instruction_sets.insert(instruction_set());
   record.recipe.samples_per_pass = session->samples_per_pass();
   if (settings_.learned) record.recipe.lessons = digest_of(settings_.learned->lessons);
   if (prepared.digest) record.recipe.digest = *prepared.digest;

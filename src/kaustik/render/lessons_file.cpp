@@ -11,7 +11,7 @@ namespace {
 
 constexpr BinaryFileKind lessons_kind = {
     {0x89, 'K', 'L', 'N', '\r', '\n', 0x1a, '\n'},
-    11,
+    12,
     "file of lessons",
     "give a .kln file, of lessons that Kaustik has learned of a scene",
     "learn again with this version of Kaustik"};

@@ -1,5 +1,8 @@
 #include "kaustik/render/packed_line.h"
 
+#include <bitset>
+#include <cmath>
+
 namespace kaustik {
 
 void WideSum::add(Fixed value) {
@@ -32,6 +35,40 @@ uint8_t* write_set_aside(size_t place, const WideSum& sum, uint8_t* at) {
   store(at + 2, uint64_t(0));
   store(at + 10, uint64_t(sum.whole >> 64));
   return at + entry_bytes;
+}
+
+namespace {
+
+/// One each of sums that a Fixed holds.
+bool are_valid_entries(const uint8_t* at, size_t count) {
+  std::bitset<words_per_line> there;
+  for (; count > 0; --count, at += entry_bytes) {
+    const size_t place = load<uint16_t>(at);
+    if (place >= words_per_line || there[place]) return false;
+    if (std::abs(double(load<int64_t>(at + 10))) > fixed_maximum) return false;
+    there[place] = true;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<size_t> checked_content_bytes(const LineHeader& header, const uint8_t* content,
+                                            size_t most) {
+  if (header.counts == uniform_line) {
+    const bool is_valid = header.packed_width == 0 && most >= sizeof(Fixed) &&
+                          width_of(load<Fixed>(content)) <= top_of_words;
+    return is_valid ? std::optional(sizeof(Fixed)) : std::nullopt;
+  }
+  const int width = header.width();
+  if (width > most_wide || header.shift + width > top_of_words) return std::nullopt;
+  const std::optional<size_t> words = header.is_split()
+                                          ? checked_split_bytes(width, content, most)
+                                          : words_per_line / 8 * size_t(width);
+  if (!words) return std::nullopt;
+  const size_t bytes = *words + header.entries() * entry_bytes;
+  if (bytes > most || !are_valid_entries(content + *words, header.entries())) return std::nullopt;
+  return bytes;
 }
 
 void read_line(const LineHeader& header, const uint8_t* content, size_t first, size_t count,

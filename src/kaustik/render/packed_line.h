@@ -2,6 +2,8 @@
 // The sums of one number of all pixels of a tile as they are packed: a header, words, and what is
 // set aside.
 
+#include <optional>
+
 #include "kaustik/render/split_words.h"
 
 namespace kaustik {
@@ -29,6 +31,8 @@ struct LineHeader {
   /// at most 63); or `uniform_line`.
   uint16_t counts = 0;
   size_t entries() const { return counts & 0x3ffu; }
+  /// All its sums are.
+  bool is_zero() const { return packed_width == 0 && counts == 0; }
   bool is_split() const;
   int width() const;
 };
@@ -48,6 +52,11 @@ inline size_t content_bytes(const LineHeader& header, const uint8_t* content) {
   if (header.counts == uniform_line) return sizeof(Fixed);
   return word_bytes(header, content) + header.entries() * entry_bytes;
 }
+
+/// The same where nobody knows what the bytes are, of which there are `most`: nothing unless header
+/// and content are such as SumLine::pack() writes.
+std::optional<size_t> checked_content_bytes(const LineHeader& header, const uint8_t* content,
+                                            size_t most);
 
 /// Calls take(place, sum) for all that is set aside.
 template <typename Take>

@@ -1,9 +1,37 @@
 #include "kaustik/render/packed_tile.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 namespace kaustik {
+namespace {
+
+/// A little more than its bytes: tiles grow slowly, and with some room they stay where they are.
+size_t room_for(size_t bytes) {
+  const size_t step = std::max<size_t>(std::bit_floor(bytes) / 16, 1);
+  return (bytes + step - 1) / step * step;
+}
+
+}  // namespace
+
+std::span<const uint8_t> PackedTile::packed() const {
+  if (content_.empty()) return {};
+  return std::span(content_).first(content_.size() - word_slack);
+}
+
+bool is_packed_tile(std::span<const uint8_t> bytes, size_t lines) {
+  if (bytes.empty()) return true;
+  size_t at = line_header_bytes * lines;
+  if (bytes.size() < at) return false;
+  for (size_t line = 0; line < lines; ++line) {
+    const auto header = load<LineHeader>(bytes.data() + line_header_bytes * line);
+    const auto size = checked_content_bytes(header, bytes.data() + at, bytes.size() - at);
+    if (!size) return false;
+    at += *size;
+  }
+  return at == bytes.size();
+}
 
 const uint8_t* PackedTile::content_of(size_t line, size_t lines) const {
   const uint8_t* at = content_.data() + line_header_bytes * lines;
@@ -53,26 +81,30 @@ void TilePacker::begin(const PackedTile& tile) {
   written_ = buffer_.get() + line_header_bytes * lines_;
 }
 
-void TilePacker::keep() {
-  uint8_t* header_at = buffer_.get() + line_header_bytes * line_;
-  if (tile_->content_.empty()) {
-    store(header_at, LineHeader{});
-  } else {
-    const auto header = load<LineHeader>(tile_->content_.data() + line_header_bytes * line_);
-    store(header_at, header);
-    const size_t bytes = content_bytes(header, read_);
-    std::memcpy(written_, read_, bytes);
-    read_ += bytes;
-    written_ += bytes;
-  }
+const uint8_t* TilePacker::header_here() const {
+  return tile_->content_.data() + line_header_bytes * line_;
+}
+
+void TilePacker::copy_line(const LineHeader& header, const uint8_t* content, size_t size) {
+  store(buffer_.get() + line_header_bytes * line_, header);
+  std::memcpy(written_, content, size);
+  written_ += size;
   ++line_;
 }
 
+void TilePacker::keep() {
+  if (!read_) return copy_line({}, written_, 0);
+  const auto header = load<LineHeader>(header_here());
+  const size_t size = content_bytes(header, read_);
+  copy_line(header, read_, size);
+  read_ += size;
+}
+
 SumLine& TilePacker::next_line() {
-  if (tile_->content_.empty())
-    unpacked_->clear();
+  if (read_)
+    read_ = unpacked_->unpack(header_here(), read_);
   else
-    read_ = unpacked_->unpack(tile_->content_.data() + line_header_bytes * line_, read_);
+    unpacked_->clear();
   return *unpacked_;
 }
 
@@ -81,25 +113,64 @@ void TilePacker::put_line() {
   ++line_;
 }
 
-void TilePacker::add_line_of(const PackedTile& other) {
-  if (other.content_.empty()) return keep();
-  other_->unpack(other.content_.data() + line_header_bytes * line_,
-                 other.content_of(line_, lines_));
-  add(*other_);
+std::span<const uint8_t> TilePacker::written() const {
+  const auto size = size_t(written_ - buffer_.get());
+  // Without contents all is zero.
+  if (size == line_header_bytes * lines_) return {};
+  return {buffer_.get(), size};
 }
 
 void TilePacker::end(PackedTile& tile) {
   assert(line_ == lines_ && &tile == tile_);
-  const auto size = size_t(written_ - buffer_.get()) + word_slack;
-  if (size == line_header_bytes * lines_ + word_slack) {
-    tile.content_ = {};
+  if (written().empty()) {
+    tile.content_ = std::vector<uint8_t>();
     return;
   }
   std::memset(written_, 0, word_slack);
-  if (tile.content_.size() == size)
-    std::memcpy(tile.content_.data(), buffer_.get(), size);
-  else
-    tile.content_ = std::vector<uint8_t>(buffer_.get(), buffer_.get() + size);
+  const size_t size = written().size() + word_slack;
+  if (tile.content_.capacity() != room_for(size)) {
+    tile.content_ = std::vector<uint8_t>();
+    tile.content_.reserve(room_for(size));
+  }
+  tile.content_.assign(buffer_.get(), buffer_.get() + size);
+}
+
+void TilePacker::add_packed(PackedTile& tile, std::span<const uint8_t> packed) {
+  if (packed.empty()) return;
+  begin(tile);
+  const uint8_t* content = packed.data() + line_header_bytes * lines_;
+  while (line_ < lines_) {
+    const uint8_t* header_at = packed.data() + line_header_bytes * line_;
+    const auto header = load<LineHeader>(header_at);
+    const size_t size = content_bytes(header, content);
+    if (header.is_zero()) {
+      keep();
+    } else if (!read_ || load<LineHeader>(header_here()).is_zero()) {
+      copy_line(header, content, size);
+    } else {
+      other_->unpack(header_at, content);
+      add(*other_);
+    }
+    content += size;
+  }
+  end(tile);
+}
+
+std::span<const uint8_t> TilePacker::repacked(const PackedTile& tile) {
+  begin(tile);
+  if (!read_) return {};
+  std::array<Fixed, SumLine::count> sums;
+  while (line_ < lines_) {
+    if (load<LineHeader>(header_here()).is_zero()) {
+      keep();
+      continue;
+    }
+    next_line().read(sums);
+    unpacked_->clear();
+    unpacked_->add(sums);
+    put_line();
+  }
+  return written();
 }
 
 }  // namespace kaustik

@@ -122,6 +122,23 @@ void read_split_words(const uint8_t* from, int width, WideWords& words) {
   read_split(from, width, words);
 }
 
+std::optional<size_t> checked_split_bytes(int width, const uint8_t* from, size_t most) {
+  if (most < sizeof(WordSplit)) return std::nullopt;
+  const auto split = load<WordSplit>(from);
+  const int core = width - split.low - split.high;
+  if (!split.is_split() || split.low > most_narrow || split.high > most_narrow || core < 1)
+    return std::nullopt;
+  size_t size = sizeof split + flag_bytes * size_t(core);
+  for (const int end : {int(split.low), int(split.high)}) {
+    if (end == 0) continue;
+    if (size + flag_bytes > most) return std::nullopt;
+    size_t count = 0;
+    for (size_t i = 0; i < flag_bytes; ++i) count += size_t(std::popcount(from[size + i]));
+    size += flag_bytes + bytes_of(count, end);
+  }
+  return size <= most && size == split.bytes ? std::optional(size) : std::nullopt;
+}
+
 SplitReader::SplitReader(const uint8_t* from, int width, size_t first) : place_(first) {
   const auto split = load<WordSplit>(from);
   low_ = split.low;

@@ -1,6 +1,8 @@
 #pragma once
 // Words of which few have bits at one of their ends: these bits are stored for those few alone.
 
+#include <optional>
+
 #include "kaustik/render/packed_words.h"
 
 namespace kaustik {
@@ -36,6 +38,10 @@ uint8_t* write_split_words(const WideWords& words, int width, WordSplit split, u
 /// Reads up to `word_slack` bytes more.
 void read_split_words(const uint8_t* from, int width, NarrowWords& words);
 void read_split_words(const uint8_t* from, int width, WideWords& words);
+
+/// Bytes that they take, of words of that width, where nobody knows what the bytes are, of which
+/// there are `most`: nothing unless they are such as write_split_words() writes.
+std::optional<size_t> checked_split_bytes(int width, const uint8_t* from, size_t most);
 
 /// Reads one word after the other.
 class SplitReader {

@@ -202,14 +202,44 @@ void SumLine::add_numbers(const std::array<Number, count>& values) {
   }
 }
 
+bool SumLine::add_narrow_words(const SumLine& other) {
+  if (is_zero_ || is_wide_ || other.is_wide_) return false;
+  const int shift = std::min(shift_, other.shift_);
+  const int up = shift_ - shift, other_up = other.shift_ - shift;
+  // A bit more than those of the wider one. Words may have grown since they were unpacked.
+  const int width = 1 + std::max(width_needed() + up, other.width_needed() + other_up);
+  if (width > 62 || width + shift > top_of_words) return false;
+  for (size_t i = 0; i < count; ++i)
+    words_[i] = int64_t((uint64_t(words_[i]) << up) + (uint64_t(other.words_[i]) << other_up));
+  shift_ = shift;
+  // Few may have the bits below.
+  if (split_.low + up > most_narrow) has_window_ = false;
+  if (!has_window_) return true;
+  split_.low = uint8_t(split_.low + up);
+  width_ += up;
+  return true;
+}
+
 void SumLine::add(const SumLine& other) {
-  if (other.is_wide_)
+  if (add_narrow_words(other)) {
+  } else if (other.is_wide_) {
     add_exact([&](size_t i) { return other.wide_words_[i] << other.shift_; });
-  else
+  } else {
     add_exact([&](size_t i) { return Fixed(other.words_[i]) << other.shift_; });
+  }
   for (const WideWord& wide : other.set_aside_) {
     set_aside(wide.place, 0);
     set_aside_[set_aside_at_[wide.place] - 1u].sum.add(wide.sum);
+  }
+}
+
+void SumLine::read(std::array<Fixed, count>& sums) const {
+  for (size_t i = 0; i < count; ++i)
+    sums[i] = (is_wide_ ? wide_words_[i] : Fixed(words_[i])) << shift_;
+  for (const WideWord& wide : set_aside_) {
+    WideSum sum = wide.sum;
+    sum.add(sums[wide.place]);
+    sums[wide.place] = sum.cut();
   }
 }
 

@@ -20,6 +20,8 @@ class SumLine {
   void add(const std::array<double, count>& values);
   void add(const std::array<Fixed, count>& values);
   void add(const SumLine& other);
+  /// All sums, cut at ±fixed_limit.
+  void read(std::array<Fixed, count>& sums) const;
 
   /// Bytes that packing takes at most.
   static constexpr size_t largest_packed = 16 * count + 36 * count + 256;
@@ -34,6 +36,8 @@ class SumLine {
     WideSum sum;
   };
   void begin_if_zero();
+  /// False, and nothing is added, unless both have narrow words and no sum needs more.
+  bool add_narrow_words(const SumLine& other);
   void add(size_t place, Fixed value);
   template <typename ValueAt>
   void add_exact(const ValueAt& value_at);
