@@ -82,11 +82,12 @@ CLUSTER_MEASURED ?= out/cluster.json
 bench-cluster: setup
 	@scripts/install_packages.sh mpi
 	@cmake --preset release $(if $(wildcard $(BUILD)/CMakeCache.txt),,-D KAUSTIK_UNITY=ON -D KAUSTIK_PRECOMPILED_HEADERS=ON) -D KAUSTIK_MPI=ON
-	@cmake --build --preset release --target kaustik kaustik-mpi merge_bench adding_bench cluster_model
+	@cmake --build --preset release --target kaustik kaustik-mpi merge_bench adding_bench cluster_model large_map_bench
 	@mkdir -p out
 	benchmarks/cluster/cluster_bench.py $(program) $(program)-mpi $(BUILD)/benchmarks/merge_bench \
 	  $(BUILD)/benchmarks/cluster/adding_bench $(CLUSTER_MEASURED) $(CLUSTER_OPTIONS)
 	$(BUILD)/benchmarks/cluster/cluster_model $(CLUSTER_MEASURED)
+	$(BUILD)/benchmarks/large_map_bench
 
 # Parts, processes of MPI and engines, with death and slow networks: docs/cluster.md. What needs something that is not
 # here is skipped, and says why.

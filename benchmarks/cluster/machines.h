@@ -10,7 +10,7 @@ struct Machines {
   double job_s = 600;     ///< of rendering, on all nodes at full speed
   double pass_s = 4;      ///< of a node
   double film_gb = 1.66;  ///< 1080p with all components and layers, 16 bytes a sum
-  double file_gb = 0.78;  ///< the same as a checkpoint
+  double file_gb = 0.52;  ///< the same as a checkpoint
   double scene_gb = 1;
   double lesson_gb = 0.006;  ///< what a pass teaches
   double interval_s = 300;   ///< --every
