@@ -119,7 +119,8 @@ void add_merge(CLI::App& program) {
       "(kaustik photons --part).");
   command->footer(
       "The result has the same bits as a single run, whatever the order of the parts: of a photon "
-      "map, all but the sum of flux in its report. A checkpoint of some parts can be merged with others. Passes need the memory of one film, however many "
+      "map, all but the sum of flux in its report. A checkpoint of some parts can be merged with "
+      "others. Passes need the memory of one film, however many "
       "parts there are; photons some hundred MB, and twice their room on the disk meanwhile. If a "
       "part is damaged, given twice, or of another render, nothing is written and nothing is "
       "removed.");

@@ -44,7 +44,8 @@ GltfBuffer buffer() {
 bool survives(const std::string& text) {
   LoadOptions options;
   options.definitions = {{"gltf.time", "0.5"}};
-  return is_accepted([&] { return parse_gltf_text(text, options, "/nonexistent").scene != nullptr; });
+  return is_accepted(
+      [&] { return parse_gltf_text(text, options, "/nonexistent").scene != nullptr; });
 }
 
 const int rounds = damage_rounds(3000, 300);

@@ -35,7 +35,8 @@ sky source dome 0 0 4 0 0 1 5
 )";
 
 bool survives_rad(const std::string& text) {
-  return is_accepted([&] { return parse_radiance(text, "test.rad", "/nowhere", {}).scene != nullptr; });
+  return is_accepted(
+      [&] { return parse_radiance(text, "test.rad", "/nowhere", {}).scene != nullptr; });
 }
 
 TEST(RadianceFuzz, TheWholeSceneIsSound) { EXPECT_TRUE(survives_rad(whole_rad)); }

@@ -3,8 +3,8 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>

@@ -222,7 +222,8 @@ void Film::add_packed_tiles(BinaryReader& reader) {
   for (size_t first = 0; first < tiles_.count(); first += tiles_at_a_time) {
     const size_t count = std::min(tiles_at_a_time, tiles_.count() - first);
     std::vector<uint64_t> ends{0};
-    for (const uint32_t size : reader.get_array<uint32_t>(count)) ends.push_back(ends.back() + size);
+    for (const uint32_t size : reader.get_array<uint32_t>(count))
+      ends.push_back(ends.back() + size);
     const uint8_t* packed = bytes.of(reader, ends.back());
     std::atomic<bool> is_damaged = false;
     parallel_blocks(count, tiles_per_thread, [&](size_t begin, size_t end, size_t) {

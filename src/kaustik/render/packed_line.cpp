@@ -62,9 +62,8 @@ std::optional<size_t> checked_content_bytes(const LineHeader& header, const uint
   }
   const int width = header.width();
   if (width > most_wide || header.shift + width > top_of_words) return std::nullopt;
-  const std::optional<size_t> words = header.is_split()
-                                          ? checked_split_bytes(width, content, most)
-                                          : words_per_line / 8 * size_t(width);
+  const std::optional<size_t> words = header.is_split() ? checked_split_bytes(width, content, most)
+                                                        : words_per_line / 8 * size_t(width);
   if (!words) return std::nullopt;
   const size_t bytes = *words + header.entries() * entry_bytes;
   if (bytes > most || !are_valid_entries(content + *words, header.entries())) return std::nullopt;

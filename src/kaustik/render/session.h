@@ -75,7 +75,8 @@ struct SessionSettings {
   /// their own, and in the end the leader's film holds all, the others' nothing.
   std::shared_ptr<Team> team;
   /// Of a team, about: the leader's film has all passes so far every so many seconds, or from
-  /// `soon_enough` of them on (team_pace.h), and `pass_done` is called then. Absent: at the end alone.
+  /// `soon_enough` of them on (team_pace.h), and `pass_done` is called then. Absent: at the end
+  /// alone.
   std::optional<double> team_interval_s;
   /// While it is closed no samples are taken, and no time counts; a light pass is finished all the
   /// same. Null: nobody closes it.

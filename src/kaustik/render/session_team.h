@@ -54,7 +54,7 @@ class Session::TeamRun {
   uint32_t lessons_end_ = 0;        ///< passes before it go by what all members know
   double last_s_ = 0, took_s_ = 0;  ///< when films were added up, and how long that took
   double round_begin_s_ = 0;
-  bool is_stopped_ = false;         ///< somebody has cancelled
+  bool is_stopped_ = false;  ///< somebody has cancelled
 };
 
 }  // namespace kaustik

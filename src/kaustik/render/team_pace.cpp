@@ -105,9 +105,8 @@ std::vector<uint32_t> TeamPace::shares(uint64_t most, double seconds, double lon
   const uint64_t wanted = std::clamp<uint64_t>(sum(shares), 1, most);
   // Nobody is done with more than that many by then.
   if (sum(shares) != wanted)
-    shares = shares_of(wanted,
-                       double(wanted + 1) * std::max(seconds, *std::ranges::max_element(pass_s)),
-                       pass_s);
+    shares = shares_of(
+        wanted, double(wanted + 1) * std::max(seconds, *std::ranges::max_element(pass_s)), pass_s);
   try_again(shares, most, longest_s);
   return shares;
 }

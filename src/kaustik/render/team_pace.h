@@ -14,7 +14,10 @@ inline constexpr double soon_enough = 0.875;
 class TeamPace {
  public:
   explicit TeamPace(uint32_t members)
-      : seconds_(members, 0), passes_(members, 0), idle_s_(members, 0), has_worked_(members, false) {}
+      : seconds_(members, 0),
+        passes_(members, 0),
+        idle_s_(members, 0),
+        has_worked_(members, false) {}
 
   /// A member's passes of a round, and the seconds that they took together; rounds before count
   /// half as much each, unless it was idle since.
@@ -44,7 +47,7 @@ class TeamPace {
 
   // By rank
   std::vector<double> seconds_, passes_;
-  std::vector<double> idle_s_;   ///< since its last pass
+  std::vector<double> idle_s_;    ///< since its last pass
   std::vector<bool> has_worked_;  ///< in this round
 };
 
